@@ -1,0 +1,6 @@
+//! A checked problem goes in; a ground [`task::Task`], a search and a plan come out.
+
+pub mod limits;
+pub mod normal;
+pub mod grounded;
+pub mod task;

@@ -1,0 +1,1 @@
+//! The one test binary: every module is a family of end-to-end tests.
