@@ -2,5 +2,6 @@
 
 pub mod limits;
 pub mod normal;
+pub mod normalize;
 pub mod grounded;
 pub mod task;

@@ -166,8 +166,10 @@ pub struct Normal {
     pub schemas: Vec<Schema>,
     /// The axioms, the domain's first.
     pub rules: Vec<Rule>,
-    /// The goal: literals without variables; a goal that is more than that has become an auxiliary derived predicate.
-    pub goal: Vec<Literal>,
+    /// What must hold in the end: literals without variables and universals; more than that has become an auxiliary derived predicate.
+    pub goal: Condition,
+    /// The variables that universals and filters of the goal bind.
+    pub goal_variables: Vec<Variable>,
     /// By which power of ten costs were multiplied to become integers: `10^scale`.
     pub scale: u32,
     /// Whether a metric counts; otherwise every operator costs 1.
