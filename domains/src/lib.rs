@@ -1,1 +1,22 @@
-//! The reference domains of this folder, and the physical worlds that will generate their data.
+//! The name of a reference domain goes in; the folder with its domain, problems and known optimal costs comes out.
+//!
+//! The domains are plain files, each in its own folder beside this crate's `src`, and README.md there says what each teaches.
+//! This crate will also hold the physical worlds that generate demonstrations and trials for them.
+//!
+//! ```
+//! let stacking = domains::folder().join("stacking");
+//! assert!(stacking.join("domain.pddl").is_file());
+//! assert!(domains::NAMES.contains(&"stacking"));
+//! ```
+
+use std::path::PathBuf;
+
+/// The names of the reference domains, in the order in which they are best read; each is a folder in [`folder`].
+pub const NAMES: [&str; 8] = [
+    "stacking", "hanoi", "keys", "delivery", "kitchen", "drawers", "circuits", "museum",
+];
+
+/// The folder that holds one folder for each of [`NAMES`], on the machine where this crate was built.
+pub fn folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
