@@ -4,4 +4,5 @@ pub mod limits;
 pub mod normal;
 pub mod normalize;
 pub mod grounded;
+pub mod ground;
 pub mod task;

@@ -8,6 +8,8 @@ mod formula;
 mod split;
 mod cost;
 
+pub use cost::scaled;
+
 use lang::model::{Domain, PredicateId, Problem};
 use lang::source::Span;
 

@@ -1,0 +1,80 @@
+//! A problem in normal form goes in; all its reachable facts, operators and axioms come out.
+//!
+//! First a fixpoint of joins finds what is reachable when deletes are ignored ([`reach`]), over interned relations ([`relation`]) and
+//! without storing intermediate results ([`join`]); then every instance is written out once ([`emit`]);
+//! last, what always or never holds is taken out ([`simplify`]).
+
+mod relation;
+mod world;
+mod join;
+mod reach;
+mod emit;
+mod simplify;
+
+use lang::model::{Domain, Problem};
+
+use crate::grounded::Grounded;
+use crate::limits::{Limits, Stop};
+use crate::normal::{Condition, Kind, Normal};
+use relation::Relation;
+
+/// What grounding found.
+#[derive(Debug)]
+pub enum Outcome {
+    /// The ground problem.
+    Grounded(Box<Grounded>),
+    /// The goal cannot be reached even when deletes are ignored.
+    Unsolvable,
+}
+
+/// Where grounding was when it was told to stop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Interrupted {
+    /// Why.
+    pub stop: Stop,
+    /// What it was doing.
+    pub phase: &'static str,
+}
+
+/// Grounds `normal`, the normal form of `problem`.
+///
+/// # Errors
+/// Where it was, if the limits ended it.
+pub fn ground(
+    domain: &Domain,
+    problem: &Problem,
+    normal: &Normal,
+    limits: &Limits,
+) -> Result<Outcome, Interrupted> {
+    let interrupted = |phase| move |stop| Interrupted { stop, phase };
+    let world = world::World::new(domain, problem);
+    let mut relations: Vec<Relation> =
+        normal.predicates.iter().map(|predicate| Relation::new(predicate.arity)).collect();
+    let mut row = Vec::new();
+    for fact in &problem.init {
+        // What is said initially of a derived predicate is for its axioms to decide.
+        if normal.predicates[fact.predicate.index()].kind != Kind::Derived {
+            row.clear();
+            row.extend(fact.arguments.iter().map(|object| object.0));
+            relations[fact.predicate.index()].insert(&row);
+        }
+    }
+    let initial: Vec<u32> = relations.iter().map(Relation::len).collect();
+    let mut reach = reach::reach(normal, &world, relations, limits)
+        .map_err(interrupted("finding reachable facts"))?;
+    let relations = std::mem::take(&mut reach.relations);
+    let mut emission = emit::Emission::new(normal, problem, &world, limits, relations, &initial);
+    let reachable = emission.run(&reach).map_err(interrupted("writing operators"))?;
+    let mut grounded = emission.grounded;
+    // The fixpoint took universal conditions as true, so less may be reachable than it found.
+    let universals = |condition: &Condition| !condition.universals.is_empty();
+    let approximate = normal.schemas.iter().any(|schema| {
+        universals(&schema.condition)
+            || schema.effects.iter().any(|effect| universals(&effect.condition))
+    }) || normal.rules.iter().any(|rule| universals(&rule.condition));
+    let exact = !emission.dropped && !approximate;
+    if !reachable || !simplify::simplify(&mut grounded, exact) {
+        return Ok(Outcome::Unsolvable);
+    }
+    Ok(Outcome::Grounded(Box::new(grounded)))
+}
