@@ -6,3 +6,4 @@ pub mod normalize;
 pub mod grounded;
 pub mod ground;
 pub mod task;
+pub mod encode;
