@@ -3,12 +3,38 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{ArgAction, Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+
+use crate::exit::Exit;
 
 /// A planning-language toolchain: a plan, with its caveats.
+///
+/// It reads PDDL, says what is wrong with it, plans, and checks plans.
 #[derive(Debug, Parser)]
-#[command(name = "caveat", version, disable_help_subcommand = true)]
+#[command(
+    name = "caveat",
+    version,
+    disable_help_subcommand = true,
+    disable_help_flag = true,
+    arg_required_else_help = true
+)]
+#[command(
+    max_term_width = 100,
+    after_help = "\
+Examples:
+  caveat plan domains/stacking/p01.pddl
+      plan a problem; its domain is found beside it
+  caveat check domain.pddl problem.pddl
+      say what is wrong with two files
+  caveat validate domain.pddl problem.pddl sas_plan
+      check a plan, step by step"
+)]
 pub struct Arguments {
+    /// Print help.
+    // The short layout, whichever way it is asked for: one screen.
+    #[arg(short, long, global = true, action = ArgAction::HelpShort)]
+    help: Option<bool>,
     /// What to do.
     #[command(subcommand)]
     pub verb: Verb,
@@ -17,8 +43,202 @@ pub struct Arguments {
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub enum Verb {
+    /// Say what is wrong with PDDL files.
+    Check(Check),
+    /// Find a plan.
+    Plan(Plan),
+    /// Check plans step by step.
+    Validate(Validate),
+    /// Write out the ground task.
+    Ground(Ground),
     /// Measure this planner and a peer on the same tasks.
     Bench(Bench),
+    /// Explain a diagnostic code.
+    Explain(Explain),
+    /// Print a completion script for a shell.
+    Completions(Completions),
+}
+
+/// How diagnostics look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum OutputFormat {
+    /// With the lines of the file, for reading.
+    Full,
+    /// One line each, for editors and scripts.
+    Concise,
+}
+
+/// `caveat check`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  caveat check domain.pddl
+      a domain alone
+  caveat check domain.pddl p01.pddl p02.pddl
+      a domain and problems of it
+  caveat check --output-format concise problem.pddl
+      a problem, with the domain that lies beside it; one line for each mistake
+
+Exit codes: 0 nothing wrong, 1 something is wrong (warnings count), 2 a file could not be read.")]
+pub struct Check {
+    /// Domains and problems; `-` is the standard input.
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// How diagnostics look.
+    #[arg(long, value_name = "FORMAT", default_value = "full")]
+    pub output_format: OutputFormat,
+}
+
+/// `caveat plan`.
+#[derive(Debug, Args)]
+#[command(override_usage = "caveat plan [OPTIONS] [DOMAIN] PROBLEM", arg_required_else_help = true, after_help = plan_help())]
+pub struct Plan {
+    /// The problem, or the domain and the problem; `-` is the standard input. A domain that is left out is looked for beside
+    /// the problem.
+    #[arg(required_unless_present = "list", num_args = 1..=2, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Find a plan of least cost.
+    #[arg(long, conflicts_with = "anytime")]
+    pub optimal: bool,
+    /// After the first plan go on for better ones until a limit is reached.
+    #[arg(long)]
+    pub anytime: bool,
+    /// Search like this instead of the usual choice; see --list.
+    #[arg(long, value_name = "NAME")]
+    pub search: Option<String>,
+    /// Search with this heuristic; see --list.
+    #[arg(long, value_name = "NAME")]
+    pub heuristic: Option<String>,
+    /// CPU time to use at most, such as 30s, 5m or 1h.
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    pub time_limit: Option<Duration>,
+    /// Resident memory to use at most, such as 500M or 6G.
+    #[arg(long, value_name = "SIZE", value_parser = bytes)]
+    pub memory_limit: Option<u64>,
+    /// The seed of whatever is left to chance.
+    #[arg(long, value_name = "N", default_value = "0")]
+    pub seed: u64,
+    /// Where the plan is written; with --anytime FILE.1, FILE.2 and so on.
+    #[arg(long, value_name = "FILE", default_value = "sas_plan")]
+    pub plan_file: PathBuf,
+    /// How diagnostics look.
+    #[arg(long, value_name = "FORMAT", default_value = "full")]
+    pub output_format: OutputFormat,
+    /// Plan nothing; print the searches and heuristics, with what is known of each.
+    #[arg(long)]
+    pub list: bool,
+}
+
+/// The examples of `plan` and its exit codes.
+fn plan_help() -> String {
+    let examples = "\
+Examples:
+  caveat plan problem.pddl
+      the first plan, to the output and to the file sas_plan; the domain is found beside the problem
+  caveat plan --optimal --time-limit 5m --memory-limit 6G domain.pddl problem.pddl
+      a plan of least cost, within limits
+  caveat plan --anytime --time-limit 30s --plan-file plans/mine domain.pddl problem.pddl
+      better and better plans: plans/mine.1, plans/mine.2 and so on";
+    format!("{examples}\n\n{}", Exit::plan_table().trim_end())
+}
+
+/// `caveat validate`.
+#[derive(Debug, Args)]
+#[command(
+    override_usage = "caveat validate [OPTIONS] [DOMAIN] PROBLEM PLAN...",
+    after_help = "\
+Examples:
+  caveat validate domain.pddl problem.pddl sas_plan
+      one plan
+  caveat validate problem.pddl sas_plan.1 sas_plan.2
+      several plans; the domain is found beside the problem
+  caveat plan problem.pddl > /dev/null && caveat validate problem.pddl - < sas_plan
+      a plan from the standard input
+
+Exit codes: 0 all plans are valid, 1 one is not, 2 a file could not be read or is not PDDL."
+)]
+pub struct Validate {
+    /// The domain, unless it lies beside the problem, the problem, and plans; `-` is the standard input.
+    #[arg(required = true, num_args = 2.., value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// How diagnostics look.
+    #[arg(long, value_name = "FORMAT", default_value = "full")]
+    pub output_format: OutputFormat,
+}
+
+/// What `ground` writes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum GroundFormat {
+    /// How many facts, operators and axioms there are.
+    Summary,
+    /// The task as Fast Downward's translator would write it.
+    Sas,
+}
+
+/// `caveat ground`.
+#[derive(Debug, Args)]
+#[command(
+    override_usage = "caveat ground [OPTIONS] [DOMAIN] PROBLEM",
+    after_help = "\
+Examples:
+  caveat ground problem.pddl
+      how large the ground task is; the domain is found beside the problem
+  caveat ground --format sas domain.pddl problem.pddl > output.sas
+      the task for another program's search
+  caveat ground --format sas -o output.sas domain.pddl problem.pddl
+      the same, with the counts on the output
+
+Exit codes: 0 done, 1 the goal is out of reach, 2 could not run."
+)]
+pub struct Ground {
+    /// The problem, or the domain and the problem; `-` is the standard input.
+    #[arg(required = true, num_args = 1..=2, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// What to write.
+    #[arg(long, value_name = "FORMAT", default_value = "summary")]
+    pub format: GroundFormat,
+    /// Where to write the task [default: the output].
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// CPU time to use at most.
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    pub time_limit: Option<Duration>,
+    /// Resident memory to use at most.
+    #[arg(long, value_name = "SIZE", value_parser = bytes)]
+    pub memory_limit: Option<u64>,
+    /// How diagnostics look.
+    #[arg(long, value_name = "FORMAT", default_value = "full")]
+    pub output_format: OutputFormat,
+}
+
+/// `caveat explain`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  caveat explain E0101
+      the page of a code
+  caveat explain unknown-predicate
+      the same by its name
+  caveat explain
+      all codes with their names
+
+Exit codes: 0 explained, 2 there is no such code.")]
+pub struct Explain {
+    /// The code or the name of a diagnostic.
+    #[arg(value_name = "CODE")]
+    pub code: Option<String>,
+}
+
+/// `caveat completions`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  caveat completions bash > ~/.local/share/bash-completion/completions/caveat
+  caveat completions zsh > ~/.zfunc/_caveat
+  caveat completions fish > ~/.config/fish/completions/caveat.fish")]
+pub struct Completions {
+    /// Which shell.
+    pub shell: Shell,
 }
 
 /// Which tasks, and what to measure on them.
@@ -81,10 +301,16 @@ pub struct Bench {
     #[arg(long, value_name = "PROGRAM")]
     pub ours: Option<PathBuf>,
     /// The peer: Fast Downward's driver script.
-    #[arg(long, value_name = "FAST-DOWNWARD.PY", env = "CAVEAT_PEER")]
+    #[arg(long, value_name = "FAST-DOWNWARD.PY", env = "CAVEAT_PEER", hide_env_values = true)]
     pub peer: Option<PathBuf>,
     /// The Python that runs the peer.
-    #[arg(long, value_name = "PROGRAM", env = "CAVEAT_PEER_PYTHON", default_value = "python3")]
+    #[arg(
+        long,
+        value_name = "PROGRAM",
+        env = "CAVEAT_PEER_PYTHON",
+        hide_env_values = true,
+        default_value = "python3"
+    )]
     pub python: PathBuf,
     /// End a task after this many times its CPU time on the clock; it is measured again the next time.
     #[arg(long, value_name = "FACTOR", default_value = "3")]

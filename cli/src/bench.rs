@@ -10,7 +10,7 @@ mod row;
 mod report;
 
 use std::fs;
-use std::io::{self, IsTerminal, Write};
+use std::io;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -20,23 +20,25 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::{self, List, Only};
 use crate::exit::Exit;
+use crate::files::Complaint;
+use crate::terminal::Terminal;
 use meter::{Allowance, Meter};
 use row::{Row, Rows};
 use side::Side;
 
 /// Measures or reports, as asked.
-pub fn run(arguments: &args::Bench) -> Exit {
-    match measure(arguments) {
+pub fn run(arguments: &args::Bench, terminal: &mut Terminal) -> Exit {
+    match measure(arguments, terminal) {
         Ok(exit) => exit,
         Err(error) => {
-            eprintln!("caveat bench: {error}");
+            terminal.say(Complaint::new(error.to_string()));
             Exit::Failed
         }
     }
 }
 
 /// Runs every task that has no row yet.
-fn measure(arguments: &args::Bench) -> io::Result<Exit> {
+fn measure(arguments: &args::Bench, terminal: &mut Terminal) -> io::Result<Exit> {
     let shared = tasks::shared()?;
     let tasks = tasks::chosen(arguments, &shared)?;
     let allowance = Allowance {
@@ -45,7 +47,7 @@ fn measure(arguments: &args::Bench) -> io::Result<Exit> {
     };
     if arguments.report {
         let text = report::report(arguments, &tasks, &shared, allowance.cpu.as_secs_f64())?;
-        io::stdout().write_all(text.as_bytes())?;
+        terminal.data(text);
         return Ok(Exit::Done);
     }
     let sides = sides(arguments)?;
@@ -65,7 +67,7 @@ fn measure(arguments: &args::Bench) -> io::Result<Exit> {
         pin: arguments.pin,
         interrupted: Arc::clone(&interrupted),
     };
-    let bar = progress(tasks.len() * sides.len());
+    let bar = progress(tasks.len() * sides.len(), terminal);
     for (number, task) in tasks.iter().enumerate() {
         for turn in 0..sides.len() {
             // Turns are taken in the order ABBA, so that neither side always finds the files in the cache.
@@ -84,7 +86,7 @@ fn measure(arguments: &args::Bench) -> io::Result<Exit> {
                 let row = one(side, arguments, task, &shared, &meter, key)?;
                 if interrupted.load(Ordering::Relaxed) {
                     bar.finish_and_clear();
-                    eprintln!("caveat bench: stopped; the rows so far are kept");
+                    terminal.say("stopped; the rows so far are kept");
                     return Ok(Exit::Failed);
                 }
                 rows.append(row)?;
@@ -157,8 +159,8 @@ fn default_time(list: List) -> Duration {
 }
 
 /// A bar on a terminal, nothing elsewhere.
-fn progress(length: usize) -> ProgressBar {
-    if !io::stderr().is_terminal() {
+fn progress(length: usize, terminal: &Terminal) -> ProgressBar {
+    if !terminal.watched {
         return ProgressBar::hidden();
     }
     let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {elapsed} {wide_msg}");

@@ -1,27 +1,108 @@
 //! Arguments go in; text on stdout and stderr, files and an exit code come out.
+//!
+//! This is the only crate that reads arguments, files, the environment and the clock, or prints.
+//!
+//! ```
+//! let (mut out, mut err) = (Vec::new(), Vec::new());
+//! let mut terminal = cli::terminal::Terminal::new(&mut out, &mut err);
+//! let exit = cli::call(["caveat", "completions", "bash"].map(Into::into), &mut terminal);
+//! assert_eq!(exit, cli::exit::Exit::Done);
+//! assert!(!out.is_empty() && err.is_empty());
+//! ```
 
 use std::ffi::OsString;
+use std::io::{self, BufWriter, IsTerminal};
 use std::process::ExitCode;
 
 use clap::Parser;
 
 pub mod args;
 pub mod exit;
+pub mod terminal;
+pub mod files;
+pub mod limits;
+pub mod fault;
 pub mod bench;
+pub mod completions;
 
 use args::{Arguments, Verb};
 use exit::Exit;
+use terminal::Terminal;
 
-/// Runs the command line `arguments`, of which the first is the program's name.
+/// The stack of the thread that works: nothing recurses on the depth of the input, but joins and searches nest deeper than most.
+/// Only what is touched becomes memory.
+const STACK: usize = 512 << 20;
+
+/// Runs the command line `arguments`, of which the first is the program's name, on the streams of this process.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let arguments = match Arguments::try_parse_from(arguments) {
-        Ok(arguments) => arguments,
-        Err(error) => {
-            let _ = error.print();
-            return if error.use_stderr() { Exit::Usage.into() } else { Exit::Done.into() };
+    let mut out = BufWriter::with_capacity(1 << 16, io::stdout());
+    let mut err = io::stderr();
+    let mut terminal = Terminal::new(&mut out, &mut err);
+    terminal.watched = io::stderr().is_terminal();
+    terminal.colour =
+        terminal.watched && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+    call(arguments, &mut terminal).into()
+}
+
+/// The same on any streams. No panic gets out: one is reported and ends in [`Exit::Bug`].
+pub fn call(arguments: impl IntoIterator<Item = OsString>, terminal: &mut Terminal) -> Exit {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let exit = match fault::contain(STACK, || dispatch(&arguments, terminal)) {
+        Ok(exit) => exit,
+        Err(fault) => {
+            terminal.say(fault);
+            Exit::Bug
         }
     };
-    match arguments.verb {
-        Verb::Bench(arguments) => bench::run(&arguments).into(),
+    match terminal.finish() {
+        Ok(()) => exit,
+        Err(error) => {
+            terminal.say(format_args!("error: the output cannot be written: {error}"));
+            if exit == Exit::Done { failed(&arguments) } else { exit }
+        }
     }
+}
+
+/// Reads the arguments and does what they say.
+fn dispatch(arguments: &[OsString], terminal: &mut Terminal) -> Exit {
+    let parsed = match Arguments::try_parse_from(arguments) {
+        Ok(parsed) => parsed,
+        Err(error) => return refuse(arguments, &error, terminal),
+    };
+    match parsed.verb {
+        Verb::Bench(arguments) => bench::run(&arguments, terminal),
+        Verb::Completions(arguments) => completions::run(&arguments, terminal),
+        _ => Exit::Failed,
+    }
+}
+
+/// Prints what clap has to say: help that was asked for is data, everything else is talk.
+fn refuse(arguments: &[OsString], error: &clap::Error, terminal: &mut Terminal) -> Exit {
+    let text = error.render();
+    let text = if terminal.colour { text.ansi().to_string() } else { text.to_string() };
+    if !error.use_stderr() {
+        terminal.data(text);
+        return Exit::Done;
+    }
+    terminal.say(text.trim_end());
+    usage(arguments)
+}
+
+/// The verb that a command line names, well formed or not.
+fn is_plan(arguments: &[OsString]) -> bool {
+    arguments
+        .iter()
+        .skip(1)
+        .find(|argument| !argument.as_encoded_bytes().starts_with(b"-"))
+        .is_some_and(|verb| verb == "plan")
+}
+
+/// How a wrong command line ends.
+fn usage(arguments: &[OsString]) -> Exit {
+    if is_plan(arguments) { Exit::Usage } else { Exit::Failed }
+}
+
+/// How a run ends that could not do its work.
+fn failed(arguments: &[OsString]) -> Exit {
+    if is_plan(arguments) { Exit::Input } else { Exit::Failed }
 }

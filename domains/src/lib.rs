@@ -12,9 +12,8 @@
 use std::path::PathBuf;
 
 /// The names of the reference domains, in the order in which they are best read; each is a folder in [`folder`].
-pub const NAMES: [&str; 8] = [
-    "stacking", "hanoi", "keys", "delivery", "kitchen", "drawers", "circuits", "museum",
-];
+pub const NAMES: [&str; 8] =
+    ["stacking", "hanoi", "keys", "delivery", "kitchen", "drawers", "circuits", "museum"];
 
 /// The folder that holds one folder for each of [`NAMES`], on the machine where this crate was built.
 pub fn folder() -> PathBuf {

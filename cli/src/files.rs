@@ -1,0 +1,202 @@
+//! Paths go in, texts come out; what cannot be read is said in a sentence with the way out.
+
+use std::fmt;
+use std::fs;
+use std::io::{self, ErrorKind, Read, Write};
+use std::path::{Path, PathBuf};
+
+/// Why a run cannot go on, for a person to read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Complaint {
+    /// What is wrong, as a sentence without a full stop.
+    pub message: String,
+    /// What to do about it.
+    pub help: Option<String>,
+}
+
+impl Complaint {
+    /// Without a way out.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self { message: message.into(), help: None }
+    }
+
+    /// With a way out.
+    pub fn with_help(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { message: message.into(), help: Some(help.into()) }
+    }
+}
+
+impl fmt::Display for Complaint {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "error: {}", self.message)?;
+        match &self.help {
+            Some(help) => write!(formatter, "\n  = help: {help}"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Whether a path stands for the standard input.
+pub fn is_stdin(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// The name under which messages speak of a path.
+pub fn name(path: &Path) -> String {
+    if is_stdin(path) { "<stdin>".to_string() } else { path.display().to_string() }
+}
+
+/// The text of a file, or of the standard input.
+pub fn read(path: &Path) -> Result<String, Complaint> {
+    let bytes = if is_stdin(path) {
+        let mut bytes = Vec::new();
+        io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
+    } else {
+        fs::read(path)
+    };
+    let bytes = bytes.map_err(|error| unreadable(path, &error))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let offset = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..offset].split(|&byte| byte == b'\n').count();
+        let byte = error.as_bytes()[offset];
+        Complaint::with_help(
+            format!(
+                "`{}` is not UTF-8: byte 0x{byte:02x} at offset {offset}, in line {line}",
+                name(path)
+            ),
+            "convert the file to UTF-8; PDDL itself needs ASCII only",
+        )
+    })
+}
+
+/// What to say of a file that cannot be read.
+fn unreadable(path: &Path, error: &io::Error) -> Complaint {
+    let name = name(path);
+    match error.kind() {
+        ErrorKind::NotFound => {
+            let message = format!("there is no file `{name}`");
+            match nearest(path) {
+                Some(near) => {
+                    Complaint::with_help(message, format!("did you mean `{}`?", near.display()))
+                }
+                None => Complaint::new(message),
+            }
+        }
+        ErrorKind::IsADirectory => {
+            Complaint::with_help(format!("`{name}` is a folder, not a file"), "name a file in it")
+        }
+        ErrorKind::PermissionDenied => {
+            Complaint::new(format!("`{name}` may not be read by this user"))
+        }
+        _ => Complaint::new(format!("`{name}` cannot be read: {error}")),
+    }
+}
+
+/// The file beside `path` whose name is most like its name, if any is.
+fn nearest(path: &Path) -> Option<PathBuf> {
+    let wanted = path.file_name()?.to_str()?.to_lowercase();
+    let folder = folder(path);
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .ok()?
+        .flatten()
+        .filter_map(|entry| entry.file_name().into_string().ok())
+        .collect();
+    names.sort();
+    let distance = |name: &String| strsim::damerau_levenshtein(&wanted, &name.to_lowercase());
+    let best = names.into_iter().min_by_key(distance)?;
+    (distance(&best) <= wanted.chars().count() / 3).then(|| path.with_file_name(best))
+}
+
+/// The folder that a file lies in.
+pub fn folder(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// Writes a file so that it is there as a whole or not at all: to a temporary file beside it, which is then renamed.
+pub fn write(path: &Path, text: &[u8]) -> Result<(), Complaint> {
+    let whole = || -> io::Result<()> {
+        let mut file = tempfile::Builder::new().prefix(".caveat-").tempfile_in(folder(path))?;
+        file.write_all(text)?;
+        // Temporary files are private; what is left is a file like any other of this user.
+        let permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666 & !umask());
+        file.as_file().set_permissions(permissions)?;
+        file.persist(path)?;
+        Ok(())
+    };
+    whole().map_err(|error| {
+        let name = name(path);
+        match error.kind() {
+            ErrorKind::NotFound => Complaint::with_help(
+                format!(
+                    "`{name}` cannot be written: there is no folder `{}`",
+                    folder(path).display()
+                ),
+                "make the folder first, or name another file",
+            ),
+            ErrorKind::IsADirectory => {
+                Complaint::new(format!("`{name}` cannot be written: it is a folder"))
+            }
+            _ => Complaint::new(format!("`{name}` cannot be written: {error}")),
+        }
+    })
+}
+
+/// The permissions that this user takes from new files.
+fn umask() -> u32 {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("Umask:"));
+    mask.and_then(|mask| u32::from_str_radix(mask.trim(), 8).ok()).unwrap_or(0o022)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{read, write};
+    use std::fs;
+
+    #[test]
+    fn a_misspelt_name_gets_the_right_one() {
+        let folder = tempfile::tempdir().expect("a temporary folder can be made");
+        fs::write(folder.path().join("problem.pddl"), "").expect("a file can be written");
+        let complaint =
+            read(&folder.path().join("probelm.pddl")).expect_err("there is no such file");
+        let right = folder.path().join("problem.pddl");
+        assert_eq!(complaint.help, Some(format!("did you mean `{}`?", right.display())));
+        let complaint =
+            read(&folder.path().join("quite-different")).expect_err("there is no such file");
+        assert_eq!(complaint.help, None);
+    }
+
+    #[test]
+    fn text_that_is_not_utf8_is_placed() {
+        let folder = tempfile::tempdir().expect("a temporary folder can be made");
+        let file = folder.path().join("latin.pddl");
+        fs::write(&file, b"(define\n; caf\xe9\n").expect("a file can be written");
+        let complaint = read(&file).expect_err("the file is not UTF-8");
+        assert!(
+            complaint.message.ends_with("byte 0xe9 at offset 13, in line 2"),
+            "{}",
+            complaint.message
+        );
+    }
+
+    #[test]
+    fn a_folder_is_no_file() {
+        let folder = tempfile::tempdir().expect("a temporary folder can be made");
+        let complaint = read(folder.path()).expect_err("a folder cannot be read");
+        assert!(complaint.message.ends_with("is a folder, not a file"), "{}", complaint.message);
+    }
+
+    #[test]
+    fn writing_leaves_nothing_else_behind() {
+        let folder = tempfile::tempdir().expect("a temporary folder can be made");
+        let file = folder.path().join("sas_plan");
+        write(&file, b"old").expect("the file can be written");
+        write(&file, b"new").expect("the file can be written again");
+        assert_eq!(fs::read(&file).expect("it is there"), b"new");
+        assert_eq!(fs::read_dir(folder.path()).expect("it is a folder").count(), 1);
+        assert!(write(&folder.path().join("none/sas_plan"), b"").is_err());
+    }
+}
