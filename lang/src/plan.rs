@@ -1,4 +1,10 @@
-//! Plans as plain data: what a planner hands over and what a validator reads.
+//! Plans as plain data: what a planner hands over and what a validator reads; and their files.
+
+mod read;
+mod write;
+
+pub use read::{Listing, read};
+pub use write::{line, write};
 
 use crate::model::{ActionId, ObjectId};
 

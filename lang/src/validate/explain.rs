@@ -1,0 +1,213 @@
+//! A condition that is false goes in; its false parts, and the steps that made them so, come out.
+
+use super::words::Words;
+use super::{Place, Run};
+use crate::execute::query::{Goal, Query, Shape, shape};
+use crate::execute::{Executor, bind, ground, value};
+use crate::model::{Fact, Formula, NodeId, ObjectId, Scope};
+use crate::source::Span;
+
+/// Disjunctions nested deeper than this are told as a whole.
+const DEEPEST: usize = 4;
+
+/// How many parts of one condition are told.
+const MOST: usize = 20;
+
+/// How many conditions are evaluated to find them.
+const EVALUATIONS: usize = 10_000;
+
+/// How many states, from the last one back, are asked when a derived fact became what it is.
+const STATES: usize = 500;
+
+/// A part of a condition that is false.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Part {
+    /// What is wrong with it.
+    pub what: What,
+    /// Where it stands in the domain or the problem.
+    pub span: Span,
+}
+
+/// What is wrong with a part of a condition.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum What {
+    /// The fact must hold and does not.
+    Missing {
+        /// The fact.
+        fact: Fact,
+        /// The last step since which it does not hold; none if it never held before.
+        since: Option<usize>,
+    },
+    /// The fact must not hold and does.
+    Forbidden {
+        /// The fact.
+        fact: Fact,
+        /// The last step since which it holds; none if it held from the beginning.
+        since: Option<usize>,
+    },
+    /// The objects must be the same and are two.
+    Different(ObjectId, ObjectId),
+    /// The object must differ from itself.
+    Same(ObjectId),
+    /// No alternative holds, or no object will do.
+    Unmet {
+        /// The condition, with objects in place of its parameters.
+        text: String,
+        /// Why each alternative is false; empty where objects would have to be named.
+        parts: Vec<Part>,
+    },
+}
+
+/// The false parts of the condition at `place`, in the order of the text.
+pub(super) fn parts(run: &Run<'_>, place: Place) -> Vec<Part> {
+    let problem = run.executor.problem();
+    let (scope, formula, binding) = match place {
+        Place::Step(at) => {
+            let step = &run.plan.steps[at];
+            let action = &run.executor.domain().actions[step.action.index()];
+            (&action.scope, &action.precondition, bind(&action.scope, step))
+        }
+        Place::Goal => {
+            let scope = &problem.goal_scope;
+            (scope, &problem.goal, vec![None; scope.variables.len()])
+        }
+    };
+    let query = Query::new(formula);
+    let mut explainer = Explainer { run, scope, formula, query: &query, evaluations: EVALUATIONS };
+    explainer.parts(Goal::Holds(formula.root()), binding, 0)
+}
+
+struct Explainer<'a> {
+    run: &'a Run<'a>,
+    scope: &'a Scope,
+    formula: &'a Formula,
+    query: &'a Query,
+    evaluations: usize,
+}
+
+type Binding = Vec<Option<ObjectId>>;
+
+impl Explainer<'_> {
+    /// The false parts of `goal`, which is false and closed.
+    fn parts(&mut self, goal: Goal, binding: Binding, depth: usize) -> Vec<Part> {
+        let mut parts = Vec::new();
+        let mut open = vec![(goal, binding)];
+        while let Some((goal, binding)) = open.pop() {
+            if parts.len() == MOST {
+                break;
+            }
+            let (Goal::Holds(node) | Goal::Fails(node)) = goal else {
+                unreachable!("a part is a node")
+            };
+            let span = self.formula.nodes[node.index()].span;
+            let what = match shape(self.formula, goal) {
+                Shape::All(goals) => {
+                    let alone = goals.len() == 1;
+                    for goal in goals {
+                        if alone || !self.holds(goal, &binding) {
+                            open.push((goal, binding.clone()));
+                        }
+                    }
+                    continue;
+                }
+                Shape::No(variables, below) => {
+                    let goals =
+                        variables.iter().map(|&variable| Goal::Binds(variable)).chain([below]);
+                    let witness = self.witness(goals.collect(), &binding);
+                    open.push((opposite(below), witness));
+                    continue;
+                }
+                Shape::Atom(atom, wanted) => self.atom(ground(atom, &binding), wanted),
+                Shape::Equal(left, right, wanted) => {
+                    let object = |term| value(term, &binding).expect("the condition is closed");
+                    match wanted {
+                        true => What::Different(object(left), object(right)),
+                        false => What::Same(object(left)),
+                    }
+                }
+                Shape::Any(goals) if depth < DEEPEST => {
+                    let text = self.text(goal, node, &binding);
+                    let each = goals.into_iter().rev();
+                    let parts = each
+                        .flat_map(|goal| self.parts(goal, binding.clone(), depth + 1))
+                        .collect();
+                    What::Unmet { text, parts }
+                }
+                Shape::Any(_) | Shape::Some(..) => {
+                    What::Unmet { text: self.text(goal, node, &binding), parts: Vec::new() }
+                }
+            };
+            parts.push(Part { what, span });
+        }
+        parts
+    }
+
+    fn text(&self, goal: Goal, node: NodeId, binding: &[Option<ObjectId>]) -> String {
+        let words =
+            Words { domain: self.run.executor.domain(), problem: self.run.executor.problem() };
+        let text = words.formula(self.scope, self.formula, node, binding);
+        if matches!(goal, Goal::Fails(_)) { format!("(not {text})") } else { text }
+    }
+
+    /// Whether a closed goal holds. When too many were asked, it is taken to be false: it is told rather than left out.
+    fn holds(&mut self, goal: Goal, binding: &[Option<ObjectId>]) -> bool {
+        let Some(left) = self.evaluations.checked_sub(1) else { return false };
+        self.evaluations = left;
+        let formula = (self.formula, self.query);
+        let executor = self.run.executor;
+        executor
+            .solutions(&self.run.state, self.scope, formula, binding.to_vec(), vec![goal])
+            .advance()
+    }
+
+    fn witness(&self, goals: Vec<Goal>, binding: &[Option<ObjectId>]) -> Binding {
+        let formula = (self.formula, self.query);
+        let executor = self.run.executor;
+        let mut solutions =
+            executor.solutions(&self.run.state, self.scope, formula, binding.to_vec(), goals);
+        assert!(solutions.advance(), "a universal condition that is false has a counterexample");
+        solutions.binding().to_vec()
+    }
+
+    fn atom(&self, fact: Fact, wanted: bool) -> What {
+        let since = self.since(&fact, wanted);
+        if wanted { What::Missing { fact, since } } else { What::Forbidden { fact, since } }
+    }
+
+    /// The last step that made `fact` hold, or not hold if it is `wanted`.
+    fn since(&self, fact: &Fact, wanted: bool) -> Option<usize> {
+        let Run { executor, history, .. } = self.run;
+        if executor.domain().predicates[fact.predicate.index()].derived {
+            return since_derived(executor, self.run, fact, wanted);
+        }
+        history.iter().rposition(|change| {
+            let facts = if wanted { &change.deleted } else { &change.added };
+            facts.contains(fact)
+        })
+    }
+}
+
+/// Goes back through the states until the derived fact is no longer what it is in the last one.
+fn since_derived(
+    executor: &Executor<'_>,
+    run: &Run<'_>,
+    fact: &Fact,
+    wanted: bool,
+) -> Option<usize> {
+    let mut state = run.state.clone();
+    for (at, change) in run.history.iter().enumerate().rev().take(STATES) {
+        executor.revert(&mut state, change);
+        if executor.contains(&state, fact) == wanted {
+            return Some(at);
+        }
+    }
+    None
+}
+
+fn opposite(goal: Goal) -> Goal {
+    match goal {
+        Goal::Holds(node) => Goal::Fails(node),
+        Goal::Fails(node) => Goal::Holds(node),
+        Goal::Binds(_) => goal,
+    }
+}

@@ -1,0 +1,219 @@
+//! A verdict goes in; what a person, or a program that knows VAL, reads comes out.
+
+use std::fmt::Write;
+
+use super::words::Words;
+use super::{Cause, Failure, Part, Place, Repair, Success, Verdict, What};
+use crate::diagnostic::{Diagnostic, Label, Severity};
+use crate::execute::Misfit;
+use crate::model::{Domain, Problem};
+use crate::plan::{self, Plan};
+use crate::source::Span;
+
+/// The lines by which VAL tells a verdict.
+pub fn lines(verdict: &Verdict) -> String {
+    match verdict {
+        Verdict::Valid(Success { value, .. }) => format!(
+            "Plan executed successfully - checking goal\nPlan valid\nFinal value: {}\n",
+            value.normalize()
+        ),
+        Verdict::Invalid(Failure { place: Place::Step(_), .. }) => {
+            "Plan failed to execute\nPlan invalid\n".to_owned()
+        }
+        Verdict::Invalid(Failure { place: Place::Goal, .. }) => {
+            "Plan executed successfully - checking goal\nGoal not satisfied\nPlan invalid\n"
+                .to_owned()
+        }
+    }
+}
+
+/// What a person reads: the cost, or where the plan fails, why, since when, and what would mend it.
+pub fn story(verdict: &Verdict, domain: &Domain, problem: &Problem, plan: &Plan) -> String {
+    let teller = Teller { words: Words { domain, problem }, plan };
+    match verdict {
+        Verdict::Valid(Success { steps, cost, .. }) => {
+            let steps = if *steps == 1 { "1 step".to_owned() } else { format!("{steps} steps") };
+            format!("The plan is valid: {steps}, cost {}.\n", cost.normalize())
+        }
+        Verdict::Invalid(failure) => {
+            let mut text = format!("The plan fails {}.\n", teller.headline(failure));
+            if let Cause::False(parts) = &failure.cause {
+                teller.list(&mut text, parts, 1);
+            }
+            if let Some(repair) = teller.repair(failure) {
+                writeln!(text, "Repair: {repair}.")
+                    .expect("a string takes all that is written to it");
+            }
+            text
+        }
+    }
+}
+
+impl Failure {
+    /// The failure as a diagnostic at the false condition. `spans` are those of the plan's steps, where they are known.
+    pub fn diagnostic(
+        &self,
+        domain: &Domain,
+        problem: &Problem,
+        plan: &Plan,
+        spans: &[Span],
+    ) -> Diagnostic {
+        let teller = Teller { words: Words { domain, problem }, plan };
+        let mut labels = match &self.cause {
+            Cause::False(parts) => parts
+                .iter()
+                .map(|part| Label { span: part.span, text: teller.part(part) })
+                .collect(),
+            Cause::Misfit(_) | Cause::Undefined(_) => {
+                vec![Label { span: self.span, text: String::new() }]
+            }
+        };
+        let primary = labels.remove(0);
+        let (code, name) = match self.place {
+            Place::Step(at) => {
+                if let Some(&span) = spans.get(at) {
+                    labels.push(Label { span, text: format!("step {}", at + 1) });
+                }
+                ("E0720", "plan-step-fails")
+            }
+            Place::Goal => ("E0721", "plan-misses-goal"),
+        };
+        Diagnostic {
+            code,
+            name,
+            severity: Severity::Error,
+            message: format!("the plan fails {}", teller.headline(self)),
+            primary,
+            secondary: labels,
+            help: teller.repair(self),
+            fixes: Vec::new(),
+        }
+    }
+}
+
+struct Teller<'a> {
+    words: Words<'a>,
+    plan: &'a Plan,
+}
+
+impl Teller<'_> {
+    /// `step 3, (stack a b)`.
+    fn step(&self, at: usize) -> String {
+        let step = &self.plan.steps[at];
+        format!("step {}, {}", at + 1, plan::line(step, self.words.domain, self.words.problem))
+    }
+
+    /// Where the plan fails and of what.
+    fn headline(&self, failure: &Failure) -> String {
+        let Place::Step(at) = failure.place else {
+            return "at the goal, which does not hold in the end".to_owned();
+        };
+        let step = self.step(at);
+        let reason = match &failure.cause {
+            Cause::False(_) => "its precondition does not hold".to_owned(),
+            Cause::Misfit(misfit) => self.misfit(at, *misfit),
+            Cause::Undefined(undefined) => {
+                let name = &self.words.domain.functions[undefined.function.index()].name.text;
+                let objects = undefined.arguments.iter().map(|&object| self.words.object(object));
+                format!("its cost needs {}, which has no value", self.words.list(name, objects))
+            }
+        };
+        format!("at {step}: {reason}")
+    }
+
+    fn misfit(&self, at: usize, misfit: Misfit) -> String {
+        let step = &self.plan.steps[at];
+        let scope = &self.words.domain.actions[step.action.index()].scope;
+        match misfit {
+            Misfit::Count(count) => {
+                format!("it has {count} arguments, and its action {} parameters", scope.parameters)
+            }
+            Misfit::Type(position) => {
+                let parameter = &scope.variables[position];
+                format!(
+                    "{} is not of type {}, as {} must be",
+                    self.words.object(step.arguments[position]),
+                    self.words.types(&parameter.types),
+                    parameter.name.text,
+                )
+            }
+        }
+    }
+
+    fn list(&self, text: &mut String, parts: &[Part], depth: usize) {
+        for part in parts {
+            let line = self.part(part);
+            writeln!(text, "{:indent$}{line}", "", indent = depth * 2)
+                .expect("a string takes all that is written to it");
+            if let What::Unmet { parts, .. } = &part.what {
+                self.list(text, parts, depth + 1);
+            }
+        }
+    }
+
+    fn part(&self, part: &Part) -> String {
+        match &part.what {
+            What::Missing { fact, since } => {
+                let derived = self.words.domain.predicates[fact.predicate.index()].derived;
+                let cause = match since {
+                    Some(at) if derived => format!("no rule derives it since {}", self.step(*at)),
+                    Some(at) => format!("{} deleted it", self.step(*at)),
+                    None if derived => "no rule derives it".to_owned(),
+                    None => "it was never true".to_owned(),
+                };
+                format!("{} is false: {cause}", self.words.fact(fact))
+            }
+            What::Forbidden { fact, since } => {
+                let derived = self.words.domain.predicates[fact.predicate.index()].derived;
+                let cause = match since {
+                    Some(at) if derived => format!("a rule derives it since {}", self.step(*at)),
+                    Some(at) => format!("{} added it", self.step(*at)),
+                    None if derived => "a rule derives it".to_owned(),
+                    None => "it holds since the beginning".to_owned(),
+                };
+                format!("{} is true and must be false: {cause}", self.words.fact(fact))
+            }
+            What::Different(left, right) => format!(
+                "{} and {} must be the same object",
+                self.words.object(*left),
+                self.words.object(*right)
+            ),
+            What::Same(object) => format!("{} must differ from itself", self.words.object(*object)),
+            What::Unmet { text, parts } if parts.is_empty() => format!("{text} does not hold"),
+            What::Unmet { text, .. } => format!("no alternative of {text} holds"),
+        }
+    }
+
+    fn repair(&self, failure: &Failure) -> Option<String> {
+        let before = |at: usize| match self.plan.steps.get(at) {
+            Some(_) => format!("before {}", self.step(at)),
+            None => "at the end".to_owned(),
+        };
+        match &failure.repair {
+            Repair::Move { step, before: at } if at > step && *at < self.plan.steps.len() => {
+                Some(format!(
+                    "the plan is valid with {} moved behind {}",
+                    self.step(*step),
+                    self.step(at - 1)
+                ))
+            }
+            Repair::Move { step, before: at } => {
+                let place =
+                    if *at < self.plan.steps.len() { before(*at) } else { "to the end".to_owned() };
+                Some(format!("the plan is valid with {} moved {place}", self.step(*step)))
+            }
+            Repair::Insert { step, before: at } => {
+                let line = plan::line(step, self.words.domain, self.words.problem);
+                Some(format!("the plan is valid with {line} inserted {}", before(*at)))
+            }
+            Repair::Set(facts) => {
+                let each: Vec<_> = facts
+                    .iter()
+                    .map(|(fact, value)| format!("set {} to {value}", self.words.fact(fact)))
+                    .collect();
+                Some(format!("no one step mends the plan; {}", each.join(", and ")))
+            }
+            Repair::None => None,
+        }
+    }
+}

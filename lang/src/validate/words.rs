@@ -1,0 +1,144 @@
+//! Facts, steps and conditions go in; the text by which messages speak of them comes out.
+
+use crate::execute::value;
+use crate::model::{
+    Atom, Domain, Fact, Formula, NodeId, NodeKind, ObjectId, Problem, Scope, Term, TypeId,
+    VariableId,
+};
+
+/// Conditions longer than this many bytes are cut.
+const LONGEST: usize = 200;
+
+/// The names by which a domain and its problem speak.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Words<'a> {
+    pub(super) domain: &'a Domain,
+    pub(super) problem: &'a Problem,
+}
+
+impl Words<'_> {
+    pub(super) fn object(self, object: ObjectId) -> String {
+        self.problem.objects[object.index()].name.text.clone()
+    }
+
+    pub(super) fn fact(self, fact: &Fact) -> String {
+        let name = &self.domain.predicates[fact.predicate.index()].name.text;
+        self.list(name, fact.arguments.iter().map(|&object| self.object(object)))
+    }
+
+    pub(super) fn list(self, name: &str, arguments: impl Iterator<Item = String>) -> String {
+        let mut text = format!("({name}");
+        for argument in arguments {
+            text.push(' ');
+            text.push_str(&argument);
+        }
+        text.push(')');
+        text
+    }
+
+    /// `a`, or `a or b` for several types.
+    pub(super) fn types(self, types: &[TypeId]) -> String {
+        let names: Vec<_> =
+            types.iter().map(|id| self.domain.types[id.index()].name.text.as_str()).collect();
+        names.join(" or ")
+    }
+
+    /// The node as PDDL, with what is bound in place of variables.
+    pub(super) fn formula(
+        self,
+        scope: &Scope,
+        formula: &Formula,
+        node: NodeId,
+        binding: &[Option<ObjectId>],
+    ) -> String {
+        enum Piece {
+            Text(&'static str),
+            Node(NodeId),
+        }
+        let mut text = String::new();
+        let mut pieces = vec![Piece::Node(node)];
+        let list = |pieces: &mut Vec<Piece>, children: &[NodeId]| {
+            pieces.push(Piece::Text(")"));
+            for &child in children.iter().rev() {
+                pieces.push(Piece::Node(child));
+                pieces.push(Piece::Text(" "));
+            }
+        };
+        while let Some(piece) = pieces.pop() {
+            if text.len() > LONGEST {
+                text.push('…');
+                break;
+            }
+            let node = match piece {
+                Piece::Text(piece) => {
+                    text.push_str(piece);
+                    continue;
+                }
+                Piece::Node(node) => node,
+            };
+            let term = |&term: &Term| self.term(scope, term, binding);
+            match formula.kind(node) {
+                NodeKind::Atom(Atom { predicate, arguments }) => {
+                    let name = &self.domain.predicates[predicate.index()].name.text;
+                    text.push_str(&self.list(name, arguments.iter().map(term)));
+                }
+                NodeKind::Equal(left, right) => {
+                    text.push_str(&self.list("=", [left, right].into_iter().map(term)));
+                }
+                NodeKind::Not(child) => {
+                    text.push_str("(not");
+                    list(&mut pieces, &[*child]);
+                }
+                NodeKind::And(children) => {
+                    text.push_str("(and");
+                    list(&mut pieces, children);
+                }
+                NodeKind::Or(children) => {
+                    text.push_str("(or");
+                    list(&mut pieces, children);
+                }
+                NodeKind::Imply(left, right) => {
+                    text.push_str("(imply");
+                    list(&mut pieces, &[*left, *right]);
+                }
+                NodeKind::Forall(variables, child) => {
+                    text.push_str("(forall ");
+                    text.push_str(&self.variables(scope, variables));
+                    list(&mut pieces, &[*child]);
+                }
+                NodeKind::Exists(variables, child) => {
+                    text.push_str("(exists ");
+                    text.push_str(&self.variables(scope, variables));
+                    list(&mut pieces, &[*child]);
+                }
+            }
+        }
+        text
+    }
+
+    fn term(self, scope: &Scope, term: Term, binding: &[Option<ObjectId>]) -> String {
+        match (value(term, binding), term) {
+            (Some(object), _) | (None, Term::Object(object)) => self.object(object),
+            (None, Term::Variable(variable)) => scope.variables[variable.index()].name.text.clone(),
+        }
+    }
+
+    fn variables(self, scope: &Scope, variables: &[VariableId]) -> String {
+        let each: Vec<_> = variables
+            .iter()
+            .map(|id| {
+                let variable = &scope.variables[id.index()];
+                match variable.types.as_slice() {
+                    // Everything is an object, which need not be said.
+                    [] | [TypeId(0)] => variable.name.text.clone(),
+                    [one] => format!("{} - {}", variable.name.text, self.types(&[*one])),
+                    several => {
+                        let types = self.types(several).replace(" or ", " ");
+                        format!("{} - (either {types})", variable.name.text)
+                    }
+                }
+            })
+            .collect();
+        format!("({})", each.join(" "))
+    }
+}
