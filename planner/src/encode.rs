@@ -164,4 +164,4 @@ fn trivial(solvable: bool) -> Encoded {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

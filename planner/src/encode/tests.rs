@@ -1,6 +1,6 @@
 //! Encoded tasks against the propositional meaning of the ground problems that they stem from.
 
-mod random;
+pub(crate) mod random;
 mod semantics;
 
 use proptest::prelude::*;

@@ -7,13 +7,13 @@ use proptest::prelude::*;
 use crate::grounded::{Axiom, Effect, Fact, FactId, Grounded, Literal, Operator};
 
 /// A fact and whether it is positive.
-pub(super) type Sign = (u32, bool);
+pub(crate) type Sign = (u32, bool);
 
 /// Conditions and what is added or deleted under them.
 type Change = (Vec<Sign>, Sign);
 
 #[derive(Debug, Clone, Default)]
-pub(super) struct Draft {
+pub(crate) struct Draft {
     facts: u32,
     initial: Vec<u32>,
     derived: Vec<u32>,
@@ -25,7 +25,7 @@ pub(super) struct Draft {
 
 impl Draft {
     /// `init f0 f1; f0 -f1 -> f2 -f0 [f1 > f3] cost 2; derived f4; f4 <= f2 -f3; goal f3`.
-    pub(super) fn parse(text: &str) -> Self {
+    pub(crate) fn parse(text: &str) -> Self {
         let mut draft = Self::default();
         let mut most = 0;
         let mut sign = |word: &str| {
@@ -85,7 +85,7 @@ impl Draft {
         draft
     }
 
-    pub(super) fn grounded(&self) -> Grounded {
+    pub(crate) fn grounded(&self) -> Grounded {
         let mut grounded = Grounded { uses_metric: true, ..Grounded::default() };
         for fact in 0..self.facts {
             grounded.facts.push(Fact { predicate: PredicateId(fact), arguments: 0..0 });
@@ -137,7 +137,7 @@ fn push(grounded: &mut Grounded, signs: &[Sign]) -> std::ops::Range<u32> {
 }
 
 /// At most five facts that change, then two derived ones of which the second may negate the first.
-pub(super) fn draft() -> impl Strategy<Value = Draft> {
+pub(crate) fn draft() -> impl Strategy<Value = Draft> {
     (2u32..6, 0u32..3).prop_flat_map(|(fluents, derived)| {
         let facts = fluents + derived;
         let sign = move || (0..facts, prop::bool::weighted(0.7));
