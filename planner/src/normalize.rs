@@ -8,7 +8,9 @@ mod formula;
 mod split;
 mod cost;
 
-pub use cost::scaled;
+pub(crate) use cost::scaled;
+pub(crate) use formula::negate;
+pub(crate) use split::static_condition;
 
 use lang::model::{Domain, PredicateId, Problem};
 use lang::source::Span;

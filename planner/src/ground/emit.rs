@@ -268,9 +268,18 @@ impl<'a> Emission<'a> {
     ) {
         // What is deleted but never reachable need not be deleted.
         let Some(fact) = self.fact(&effect.literal.atom, binding) else { return };
-        let known: Vec<Literal> =
-            self.grounded.literals[precondition.start as usize..precondition.end as usize].to_vec();
-        let Some(conditions) = self.condition(&effect.condition, binding, &known) else { return };
+        let conditions =
+            if effect.condition.literals.is_empty() && effect.condition.universals.is_empty() {
+                0..0
+            } else {
+                let known = self.grounded.literals
+                    [precondition.start as usize..precondition.end as usize]
+                    .to_vec();
+                let Some(conditions) = self.condition(&effect.condition, binding, &known) else {
+                    return;
+                };
+                conditions
+            };
         self.grounded.effects.push(Effect {
             conditions,
             literal: Literal { fact, positive: effect.literal.positive },

@@ -143,6 +143,8 @@ enum Access {
     },
     /// The objects of a variable that occurs in no atom.
     Domain { variable: u32 },
+    /// The one value that an equality leaves.
+    Assign { variable: u32, term: Term },
 }
 
 /// The order in which a body is enumerated, for what is bound at the start.
@@ -175,8 +177,9 @@ pub fn plan(
         now
     };
     let checks = ready(&bound);
-    let mut open: Vec<usize> = (0..body.atoms.len()).filter(|&atom| Some(atom) != delta).collect();
     let mut steps = Vec::new();
+    assign(body, &mut bound, &mut steps, &mut ready);
+    let mut open: Vec<usize> = (0..body.atoms.len()).filter(|&atom| Some(atom) != delta).collect();
     while !open.is_empty() {
         let (position, _) = open
             .iter()
@@ -217,15 +220,42 @@ pub fn plan(
             Access::Rows { atom: number as u32, exclude, index, columns, binds, repeats }
         };
         steps.push(Step { access, checks: ready(&bound) });
+        assign(body, &mut bound, &mut steps, &mut ready);
     }
-    let mut rest: Vec<u32> =
-        body.matched.iter().copied().filter(|&variable| !bound[variable as usize]).collect();
+    let mut rest: Vec<u32> = body.matched.clone();
     rest.sort_by_key(|&variable| body.domains[variable as usize].list.len());
     for variable in rest {
-        bound[variable as usize] = true;
-        steps.push(Step { access: Access::Domain { variable }, checks: ready(&bound) });
+        if !bound[variable as usize] {
+            bound[variable as usize] = true;
+            steps.push(Step { access: Access::Domain { variable }, checks: ready(&bound) });
+            assign(body, &mut bound, &mut steps, &mut ready);
+        }
     }
     Plan { checks, steps }
+}
+
+/// Binds every variable that an equality ties to what is bound already.
+fn assign(
+    body: &Body,
+    bound: &mut [bool],
+    steps: &mut Vec<Step>,
+    ready: &mut impl FnMut(&[bool]) -> Vec<u32>,
+) {
+    let is_bound =
+        |term: Term, bound: &[bool]| variable(term).is_none_or(|variable| bound[variable as usize]);
+    loop {
+        let open = body.checks.iter().find_map(|(filter, _)| match filter {
+            Filter::Equal(left, right) => match (is_bound(*left, bound), is_bound(*right, bound)) {
+                (true, false) => Some((*right, *left)),
+                (false, true) => Some((*left, *right)),
+                _ => None,
+            },
+            _ => None,
+        });
+        let Some((Term::Variable(variable), term)) = open else { return };
+        bound[variable as usize] = true;
+        steps.push(Step { access: Access::Assign { variable, term }, checks: ready(bound) });
+    }
 }
 
 /// How many rows of its relation agree with the bound arguments of `atom`, as if columns were independent.
@@ -325,6 +355,13 @@ impl Join<'_> {
                     }
                     _ => true,
                 }
+            }
+            Access::Assign { variable, term } => {
+                let object = value(*term, self.binding);
+                self.binding[*variable as usize] = object;
+                let fits = self.body.domains[*variable as usize].contains(object)
+                    && self.pass(&step.checks);
+                !fits || self.step(depth + 1, found)
             }
             Access::Domain { variable } => {
                 let body = self.body;

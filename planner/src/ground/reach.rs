@@ -5,11 +5,15 @@
 //! so that every instance is found exactly once and needs no look-up among the instances.
 
 use crate::limits::{Limits, Stop};
-use crate::normal::{Atom, Condition, Effect, Normal, Term, Variable};
+use crate::normal::{Atom, Condition, Effect, Filter, Normal, Term, Variable};
+use crate::normalize::{negate, static_condition};
 
 use super::join::{Body, Join, Plan, key_of, plan};
 use super::relation::Relation;
 use super::world::World;
+
+/// Into how many joins a condition with static disjunctions is split at most.
+const MOST_VARIANTS: usize = 16;
 
 /// The fixpoint.
 pub struct Reach {
@@ -108,9 +112,11 @@ impl<'a> Fixpoint<'a> {
         };
         for (number, schema) in normal.schemas.iter().enumerate() {
             let matched: Vec<u32> = (0..schema.bound as u32).collect();
-            let body =
-                fixpoint.body(normal, &schema.condition, Vec::new(), &schema.variables, &matched);
-            fixpoint.add(body, Head::Schema(number));
+            for condition in variants(&schema.condition) {
+                let body =
+                    fixpoint.body(normal, &condition, Vec::new(), &schema.variables, &matched);
+                fixpoint.add(body, Head::Schema(number));
+            }
             let mut consequences =
                 Consequences { bound: schema.bound, adds: Vec::new(), projections: Vec::new() };
             for effect in schema.effects.iter().filter(|effect| effect.literal.positive) {
@@ -120,9 +126,10 @@ impl<'a> Fixpoint<'a> {
         }
         for (number, rule) in normal.rules.iter().enumerate() {
             let matched: Vec<u32> = (0..rule.bound as u32).collect();
-            let body =
-                fixpoint.body(normal, &rule.condition, Vec::new(), &rule.variables, &matched);
-            fixpoint.add(body, Head::Rule(number));
+            for condition in variants(&rule.condition) {
+                let body = fixpoint.body(normal, &condition, Vec::new(), &rule.variables, &matched);
+                fixpoint.add(body, Head::Rule(number));
+            }
             fixpoint.rule_heads.push(rule.head.clone());
         }
         fixpoint.triggers = vec![Vec::new(); fixpoint.reach.relations.len()];
@@ -320,6 +327,33 @@ impl<'a> Fixpoint<'a> {
             }
         }
     }
+}
+
+/// Conditions whose matches are those of `condition`, each match in exactly one of them: its static disjunctions are split,
+/// so that what a disjunct says guides the join instead of being tested after it.
+fn variants(condition: &Condition) -> Vec<Condition> {
+    let mut variants = vec![condition.clone()];
+    for (number, filter) in condition.filters.iter().enumerate() {
+        let Filter::Any(disjuncts) = filter else { continue };
+        if variants.len() * disjuncts.len() > MOST_VARIANTS {
+            continue;
+        }
+        let mut next = Vec::new();
+        for variant in &variants {
+            for (position, disjunct) in disjuncts.iter().enumerate() {
+                let mut variant = variant.clone();
+                // The disjunction itself stays in its place, where it holds trivially, so that positions stay the same.
+                variant.filters[number] = Filter::All(Vec::new());
+                let part = static_condition(disjunct.clone());
+                variant.literals.extend(part.literals);
+                variant.filters.extend(part.filters);
+                variant.filters.extend(disjuncts[..position].iter().cloned().map(negate));
+                next.push(variant);
+            }
+        }
+        variants = next;
+    }
+    variants
 }
 
 /// Matches of a program, back to back.

@@ -186,7 +186,7 @@ impl Builder {
 
     /// A conjunction: the product of what its children split into, with the largest disjunctions hidden where that would be too many.
     fn split_all(&mut self, children: Vec<Nnf>, scope: &Scope) -> Vec<Conjunction> {
-        let mut parts: Vec<(Nnf, Vec<Conjunction>)> = Vec::new();
+        let mut parts: Vec<(Nnf, Vec<Conjunction>)> = Vec::with_capacity(children.len());
         for child in children {
             let conjunctions = self.split(child.clone(), scope);
             parts.push((child, conjunctions));
@@ -207,14 +207,23 @@ impl Builder {
             let literal = self.hide(formula.clone(), scope, "any");
             *conjunctions = self.split(Nnf::Literal(literal), scope);
         }
-        let mut product = vec![Conjunction::default()];
-        for (_, conjunctions) in parts {
+        // What does not split stands in every conjunction; it is gathered once, since goals may have thousands of parts.
+        let mut shared = Conjunction::default();
+        let mut choices = Vec::new();
+        for (_, mut conjunctions) in parts {
+            if conjunctions.len() == 1 {
+                join(&mut shared, conjunctions.pop().expect("it has one conjunction"));
+            } else {
+                choices.push(conjunctions);
+            }
+        }
+        let mut product = vec![shared];
+        for conjunctions in choices {
             let mut next = Vec::with_capacity(product.len() * conjunctions.len());
             for left in &product {
                 for right in &conjunctions {
                     let mut both = left.clone();
-                    both.exists.extend(&right.exists);
-                    merge(&mut both.condition, right.condition.clone());
+                    join(&mut both, right.clone());
                     next.push(both);
                 }
             }
@@ -267,7 +276,7 @@ impl Builder {
 }
 
 /// A static part as a condition: positive and negative atoms and (in)equalities as filters, positive atoms as literals to join over.
-fn static_condition(filter: Filter) -> Condition {
+pub fn static_condition(filter: Filter) -> Condition {
     let mut condition = Condition::default();
     let mut parts = vec![filter];
     while let Some(part) = parts.pop() {
@@ -284,12 +293,13 @@ fn static_condition(filter: Filter) -> Condition {
     condition
 }
 
+fn join(conjunction: &mut Conjunction, other: Conjunction) {
+    conjunction.exists.extend(other.exists);
+    merge(&mut conjunction.condition, other.condition);
+}
+
 fn merge(condition: &mut Condition, other: Condition) {
-    for literal in other.literals {
-        if !condition.literals.contains(&literal) {
-            condition.literals.push(literal);
-        }
-    }
+    condition.literals.extend(other.literals);
     condition.filters.extend(other.filters);
     condition.universals.extend(other.universals);
 }
