@@ -4,6 +4,11 @@
 
 pub mod blind;
 pub mod goalcount;
+mod queue;
+mod relaxed;
+pub mod hmax;
+pub mod hadd;
+pub mod ff;
 
 use crate::task::{OperatorId, Task};
 
@@ -63,7 +68,8 @@ pub trait Heuristic {
     /// The estimate for a state, given the values of all variables; [`DEAD_END`] for infinity.
     fn evaluate(&mut self, values: &[u32]) -> u32;
 
-    /// Operators that the last evaluation found helpful, all applicable, in ascending order.
+    /// Operators that the last evaluation found helpful, in ascending order. Whoever uses them keeps to the applicable ones: a heuristic that takes
+    /// negated derived facts for granted may name others.
     fn preferred(&self) -> &[OperatorId] {
         &[]
     }
@@ -89,17 +95,26 @@ pub enum Kind {
     Blind,
     /// [`goalcount`].
     GoalCount,
+    /// [`hmax`].
+    Hmax,
+    /// [`hadd`].
+    Hadd,
+    /// [`ff`].
+    Ff,
 }
 
 impl Kind {
     /// All, in the order of [`list`].
-    pub const ALL: [Self; 2] = [Self::Blind, Self::GoalCount];
+    pub const ALL: [Self; 5] = [Self::Blind, Self::GoalCount, Self::Hmax, Self::Hadd, Self::Ff];
 
     /// What may be relied on.
     pub fn profile(self) -> Profile {
         match self {
             Self::Blind => blind::profile(),
             Self::GoalCount => goalcount::profile(),
+            Self::Hmax => hmax::profile(),
+            Self::Hadd => hadd::profile(),
+            Self::Ff => ff::profile(),
         }
     }
 
@@ -119,6 +134,9 @@ impl Kind {
         match self {
             Self::Blind => Box::new(blind::Blind::new(task, costs)),
             Self::GoalCount => Box::new(goalcount::GoalCount::new(task)),
+            Self::Hmax => Box::new(hmax::Hmax::new(task, costs)),
+            Self::Hadd => Box::new(hadd::Hadd::new(task, costs)),
+            Self::Ff => Box::new(ff::Ff::new(task, costs)),
         }
     }
 }

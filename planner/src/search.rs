@@ -4,6 +4,8 @@
 
 pub mod node;
 pub mod astar;
+pub mod eager;
+pub mod lazy;
 pub mod breadth;
 
 use std::fmt;
@@ -27,6 +29,10 @@ pub enum Strategy {
     First,
     /// A* with re-opening.
     AStar(Kind),
+    /// Greedy best-first, eager.
+    Eager(Kind),
+    /// Greedy best-first, lazy, with preferred operators.
+    Lazy(Kind),
     /// Breadth-first.
     Breadth,
 }
@@ -117,14 +123,14 @@ pub struct Profile {
 
 /// The profiles of all engines.
 pub fn list() -> Vec<Profile> {
-    vec![astar::profile(), breadth::profile()]
+    vec![astar::profile(), eager::profile(), lazy::profile(), breadth::profile()]
 }
 
 /// The strategy that is run for a configuration: one that names an engine.
 pub fn choose(_task: &Task, strategy: Strategy) -> Strategy {
     match strategy {
         Strategy::Optimal => Strategy::AStar(Kind::Blind),
-        Strategy::First => Strategy::Breadth,
+        Strategy::First => Strategy::Lazy(Kind::Ff),
         named => named,
     }
 }
@@ -137,6 +143,15 @@ pub fn run(task: &Task, config: &Config, limits: &Limits, on_plan: &mut dyn FnMu
         Strategy::AStar(kind) => {
             let mut heuristic = kind.build(task, Costs::Metric);
             astar::search(&mut space, heuristic.as_mut(), 1, &mut run)
+        }
+        Strategy::Eager(kind) => {
+            let mut heuristic = kind.build(task, Costs::Unit);
+            eager::search(&mut space, heuristic.as_mut(), &mut run)
+        }
+        Strategy::Lazy(kind) => {
+            let mut heuristics = [kind.build(task, Costs::Unit)];
+            let options = lazy::Options { weight: None, costs: Costs::Unit };
+            lazy::search(&mut space, &mut heuristics, options, &mut run)
         }
         _ => breadth::search(&mut space, &mut run),
     };
@@ -234,6 +249,8 @@ impl fmt::Display for Strategy {
             Self::Optimal => formatter.write_str("optimal"),
             Self::First => formatter.write_str("first"),
             Self::AStar(kind) => write!(formatter, "astar({})", kind.profile().name),
+            Self::Eager(kind) => write!(formatter, "eager({})", kind.profile().name),
+            Self::Lazy(kind) => write!(formatter, "lazy({})", kind.profile().name),
             Self::Breadth => formatter.write_str("breadth"),
         }
     }
@@ -256,6 +273,8 @@ impl FromStr for Strategy {
             ("first", None) => Ok(Self::First),
             ("breadth", None) => Ok(Self::Breadth),
             ("astar", Some(kind)) => Ok(Self::AStar(kind)),
+            ("eager", Some(kind)) => Ok(Self::Eager(kind)),
+            ("lazy", Some(kind)) => Ok(Self::Lazy(kind)),
             _ => Err(format!("there is no search `{text}`")),
         }
     }
