@@ -4,6 +4,120 @@
 
 use crate::source::Span;
 
+pub mod unclosed_paren;
+pub mod unexpected_close_paren;
+pub mod not_a_pddl_file;
+pub mod unknown_section;
+pub mod unknown_field;
+pub mod invalid_character;
+pub mod several_formulas;
+pub mod duplicate_field;
+pub mod connective_in_init;
+pub mod unexpected_item;
+pub mod not_utf8;
+pub mod unknown_predicate;
+pub mod unknown_variable;
+pub mod unknown_object;
+pub mod duplicate_definition;
+pub mod duplicate_parameter;
+pub mod domain_name_mismatch;
+pub mod unknown_function;
+pub mod wrong_arity;
+pub mod type_mismatch;
+pub mod unknown_type;
+pub mod cyclic_types;
+pub mod function_as_predicate;
+pub mod unknown_requirement;
+pub mod missing_requirement;
+pub mod unsupported_feature;
+pub mod wrong_operand_count;
+pub mod disjunctive_effect;
+pub mod when_in_condition;
+pub mod contradictory_effect;
+pub mod uninitialised_function;
+pub mod variable_in_init;
+pub mod dash_not_separated;
+pub mod unused_parameter;
+
+/// All kinds, in the order of their blocks.
+pub const RULES: &[Rule] = &[
+    unclosed_paren::RULE,
+    unexpected_close_paren::RULE,
+    not_a_pddl_file::RULE,
+    unknown_section::RULE,
+    unknown_field::RULE,
+    invalid_character::RULE,
+    several_formulas::RULE,
+    duplicate_field::RULE,
+    connective_in_init::RULE,
+    unexpected_item::RULE,
+    not_utf8::RULE,
+    unknown_predicate::RULE,
+    unknown_variable::RULE,
+    unknown_object::RULE,
+    duplicate_definition::RULE,
+    duplicate_parameter::RULE,
+    domain_name_mismatch::RULE,
+    unknown_function::RULE,
+    wrong_arity::RULE,
+    type_mismatch::RULE,
+    unknown_type::RULE,
+    cyclic_types::RULE,
+    function_as_predicate::RULE,
+    unknown_requirement::RULE,
+    missing_requirement::RULE,
+    unsupported_feature::RULE,
+    wrong_operand_count::RULE,
+    disjunctive_effect::RULE,
+    when_in_condition::RULE,
+    contradictory_effect::RULE,
+    uninitialised_function::RULE,
+    variable_in_init::RULE,
+    dash_not_separated::RULE,
+    unused_parameter::RULE,
+];
+/// One kind of mistake: its code, its name and the page that explains it.
+#[derive(Debug, Clone, Copy)]
+pub struct Rule {
+    /// The stable code, such as `E0101`.
+    pub code: &'static str,
+    /// The stable name in kebab-case.
+    pub name: &'static str,
+    /// Error or warning.
+    pub severity: Severity,
+    /// The page that `caveat explain` prints, in Markdown.
+    pub page: &'static str,
+}
+
+impl Rule {
+    /// A mistake of this kind at `span`, where `label` is to be seen.
+    pub fn at(
+        &self,
+        span: Span,
+        message: impl Into<String>,
+        label: impl Into<String>,
+    ) -> Diagnostic {
+        Diagnostic {
+            code: self.code,
+            name: self.name,
+            severity: self.severity,
+            message: message.into(),
+            primary: Label { span, text: label.into() },
+            secondary: Vec::new(),
+            help: None,
+            fixes: Vec::new(),
+        }
+    }
+}
+
+/// The page of the kind that has this code or this name.
+pub fn explain(code_or_name: &str) -> Option<&'static str> {
+    let rule = RULES
+        .iter()
+        .find(|rule| rule.code.eq_ignore_ascii_case(code_or_name) || rule.name == code_or_name)?;
+    Some(rule.page)
+}
+
 /// How bad it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
@@ -50,6 +164,48 @@ pub struct Diagnostic {
     pub help: Option<String>,
     /// Ways to mend it that a machine can apply.
     pub fixes: Vec<Fix>,
+}
+
+impl Diagnostic {
+    /// Adds a place that shows the cause.
+    #[must_use]
+    pub fn label(mut self, span: Span, text: impl Into<String>) -> Self {
+        self.secondary.push(Label { span, text: text.into() });
+        self
+    }
+
+    /// Says what to do about it.
+    #[must_use]
+    pub fn help(mut self, text: impl Into<String>) -> Self {
+        self.help = Some(text.into());
+        self
+    }
+
+    /// Offers to replace one range.
+    #[must_use]
+    pub fn fix(
+        mut self,
+        title: impl Into<String>,
+        span: Span,
+        replacement: impl Into<String>,
+    ) -> Self {
+        self.fixes.push(Fix { title: title.into(), edits: vec![(span, replacement.into())] });
+        self
+    }
+
+    /// Proposes the name that was probably meant, if there is one.
+    #[must_use]
+    pub fn suggest(self, near: Option<&str>) -> Self {
+        let span = self.primary.span;
+        match near {
+            Some(near) => self.help(format!("did you mean `{near}`?")).fix(
+                format!("replace with `{near}`"),
+                span,
+                near,
+            ),
+            None => self,
+        }
+    }
 }
 
 /// All mistakes found so far, in the order in which they were found.

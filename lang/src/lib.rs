@@ -4,7 +4,18 @@
 
 pub mod source;
 pub mod diagnostic;
+pub mod lexer;
+pub mod tree;
+pub mod ast;
+pub mod syntax;
+mod near;
+mod check;
+mod reader;
 pub mod model;
 pub mod plan;
 pub mod execute;
 pub mod validate;
+pub mod render;
+
+pub use diagnostic::explain;
+pub use reader::{Kind, detect, parse_domain, parse_problem, read_domain, read_problem};

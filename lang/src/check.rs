@@ -1,0 +1,168 @@
+//! An [`ast::Domain`] or an [`ast::Problem`] goes in; a [`model::Domain`] or a [`model::Problem`] comes out, with every name resolved.
+//!
+//! What cannot be resolved is reported once and then left out, so that one mistake gives one message.
+
+mod index;
+mod requirement;
+mod hierarchy;
+mod scope;
+mod condition;
+mod effect;
+mod domain;
+mod problem;
+
+use std::collections::BTreeSet;
+
+use hashbrown::HashSet;
+
+use crate::ast::{self, Feature, Unread};
+use crate::diagnostic::{
+    Diagnostic, Diagnostics, Rule, missing_requirement, unexpected_item, unknown_predicate,
+    unsupported_feature,
+};
+use crate::model::{self, Object, TypeId, Variable};
+use crate::near::nearest;
+use crate::source::Span;
+
+use index::Index;
+use requirement::{Flags, Need};
+
+pub use domain::domain;
+pub use problem::problem;
+
+/// The type that everything has.
+pub(crate) const OBJECT: TypeId = TypeId(0);
+
+/// What has been said so far about one text, so that nothing is said twice.
+struct Report<'d> {
+    diagnostics: &'d mut Diagnostics,
+    /// The names that have been reported, in lower case, each with the code of the mistake.
+    said: HashSet<(&'static str, String)>,
+    features: BTreeSet<Feature>,
+    declared: Flags,
+    /// The requirements that have been reported as missing.
+    missing: Flags,
+}
+
+impl<'d> Report<'d> {
+    fn new(diagnostics: &'d mut Diagnostics, declared: Flags) -> Self {
+        Self {
+            diagnostics,
+            said: HashSet::new(),
+            features: BTreeSet::new(),
+            declared,
+            missing: Flags::default(),
+        }
+    }
+
+    fn push(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// Whether this is the first mistake of this kind about this name.
+    fn first(&mut self, rule: &Rule, name: &str) -> bool {
+        self.said.insert((rule.code, name.to_ascii_lowercase()))
+    }
+
+    /// Says once for each feature that it is not planned yet.
+    fn unsupported(&mut self, unread: &Unread<'_>) {
+        if self.features.insert(unread.feature) {
+            self.push(unsupported_feature::unsupported_feature(
+                unread.feature.describe(),
+                unread.keyword.span,
+            ));
+        }
+    }
+
+    /// Says once for each requirement that something needs it.
+    fn need(&mut self, need: Need, span: Span) {
+        let (flags, name, what) = need.describe();
+        if !self.declared.meets(flags) && !self.missing.meets(flags) {
+            self.missing.add(flags);
+            self.push(missing_requirement::missing_requirement(name, span, what));
+        }
+    }
+}
+
+/// What names mean where a formula is checked.
+#[derive(Clone, Copy)]
+struct World<'w, 'a> {
+    domain: &'w model::Domain,
+    objects: &'w [Object],
+    names: &'w Names<'a>,
+    /// Where objects are declared, for messages.
+    places: &'w str,
+}
+
+/// Finds ids by name, one table for each kind, because PDDL keeps the kinds apart.
+#[derive(Default)]
+struct Names<'a> {
+    types: Index<'a>,
+    predicates: Index<'a>,
+    functions: Index<'a>,
+    objects: Index<'a>,
+}
+
+impl World<'_, '_> {
+    /// Whether something of the types `have`, of all of them or of one of them, may stand where one of `wanted` is asked for.
+    ///
+    /// No types at all means that a mistake has been reported about them.
+    fn fits(&self, have: &[TypeId], all: bool, wanted: &[TypeId]) -> bool {
+        let below = |&sub: &TypeId| wanted.iter().any(|&above| self.domain.is_subtype(sub, above));
+        have.is_empty()
+            || wanted.is_empty()
+            || if all { have.iter().any(below) } else { have.iter().all(below) }
+    }
+
+    /// The types as a message shows them.
+    fn describe_types(&self, types: &[TypeId]) -> String {
+        describe_types(&self.domain.types, types)
+    }
+}
+
+fn describe_types(table: &[model::Type], types: &[TypeId]) -> String {
+    let name = |id: &TypeId| table[id.index()].name.text.as_str();
+    match types {
+        [] => "object".to_owned(),
+        [one] => name(one).to_owned(),
+        several => format!("(either {})", several.iter().map(name).collect::<Vec<_>>().join(" ")),
+    }
+}
+
+/// Parameters as they are declared: `?a - block ?b`.
+fn describe_parameters(table: &[model::Type], parameters: &[Variable]) -> String {
+    let shown = parameters.iter().map(|parameter| {
+        if parameter.types.is_empty() || parameter.types == [OBJECT] {
+            return parameter.name.text.clone();
+        }
+        format!("{} - {}", parameter.name.text, describe_types(table, &parameter.types))
+    });
+    shown.collect::<Vec<_>>().join(" ")
+}
+
+/// Says what is wrong with a formula that could not be read: mostly that it is not supported.
+fn unread(world: &World<'_, '_>, unread: &Unread<'_>, report: &mut Report<'_>) {
+    if unread.feature == Feature::ObjectFluents
+        && world.domain.functions.is_empty()
+        && unread.keyword.text != "="
+    {
+        let words = ["and", "or", "not", "imply", "forall", "exists", "when"];
+        let near = nearest(unread.keyword.text, words);
+        if near.is_some() || world.names.predicates.find(unread.keyword.text).is_none() {
+            report.push(unknown_predicate::unknown_predicate(
+                unread.keyword.text,
+                unread.keyword.span,
+                near,
+            ));
+        } else {
+            let message = "objects and variables as arguments, not a formula";
+            report.push(unexpected_item::unexpected_item(message, unread.node.span));
+        }
+        return;
+    }
+    report.unsupported(unread);
+}
+
+fn name(name: ast::Name<'_>) -> model::Name {
+    model::Name { text: name.text.to_owned(), span: name.span }
+}

@@ -1,0 +1,263 @@
+//! Problems.
+
+use hashbrown::HashTable;
+use rust_decimal::Decimal;
+use rustc_hash::FxHasher;
+
+use std::hash::{Hash, Hasher};
+
+use super::requirement::{self, Flags};
+use super::scope::{self, Bindings, Callee};
+use super::{Names, Report, World, condition, domain, name};
+use crate::ast::{self, EntryKind, ProblemSection};
+use crate::diagnostic::{
+    Diagnostics, domain_name_mismatch, unexpected_item, uninitialised_function, variable_in_init,
+};
+use crate::model::{Domain, Fact, Formula, FunctionValue, Metric, ObjectId, Problem};
+use crate::source::Span;
+
+/// Resolves a problem against its domain.
+pub fn problem(ast: &ast::Problem<'_>, domain: &Domain, diagnostics: &mut Diagnostics) -> Problem {
+    let requirements = ast.sections.iter().filter_map(|section| match section {
+        ProblemSection::Requirements(names) => Some(names.iter().copied()),
+        _ => None,
+    });
+    let declared = requirement::read(requirements.flatten(), diagnostics);
+    let mut report = Report::new(diagnostics, declared);
+    report.declare(Flags::from_model(&domain.requirements));
+    let mut names = table(domain);
+    let mut problem = Problem {
+        name: name(ast.name),
+        objects: domain.constants.clone(),
+        init: Vec::new(),
+        values: Vec::new(),
+        goal_scope: crate::model::Scope::default(),
+        goal: Formula::truth(ast.name.span),
+        metric: None,
+    };
+    let place = format!("`:types` of domain `{}`", domain.name.text);
+    for section in &ast.sections {
+        match section {
+            ProblemSection::Objects(list) => {
+                domain::objects(
+                    list,
+                    "object",
+                    &place,
+                    &mut problem.objects,
+                    &mut names,
+                    &mut report,
+                );
+            }
+            ProblemSection::Domain(asked)
+                if !asked.is(&domain.name.text) && !domain.name.text.is_empty() =>
+            {
+                let mismatch = domain_name_mismatch::domain_name_mismatch;
+                report.push(mismatch(asked.text, asked.span, &domain.name.text, domain.name.span));
+            }
+            ProblemSection::Unread(unread) => report.unsupported(unread),
+            _ => {}
+        }
+    }
+    let objects = std::mem::take(&mut problem.objects);
+    let places = format!("`:objects` nor in `:constants` of domain `{}`", domain.name.text);
+    let world = World { domain, objects: &objects, names: &names, places: &places };
+    contents(ast, &world, &mut problem, &mut report);
+    problem.objects = objects;
+    problem
+}
+
+/// The names of the domain.
+fn table(domain: &Domain) -> Names<'_> {
+    let mut names = Names::default();
+    for (id, of) in domain.types.iter().enumerate() {
+        names.types.insert(&of.name.text, id as u32);
+    }
+    for (id, of) in domain.predicates.iter().enumerate() {
+        names.predicates.insert(&of.name.text, id as u32);
+    }
+    for (id, of) in domain.functions.iter().enumerate() {
+        names.functions.insert(&of.name.text, id as u32);
+    }
+    for (id, of) in domain.constants.iter().enumerate() {
+        names.objects.insert(&of.name.text, id as u32);
+    }
+    names
+}
+
+/// The initial state, the goal and the metric.
+fn contents<'a>(
+    ast: &ast::Problem<'a>,
+    world: &World<'_, 'a>,
+    problem: &mut Problem,
+    report: &mut Report<'_>,
+) {
+    let mut state = State { seen: HashTable::new(), world, report };
+    let mut goal = None;
+    let mut metric = None;
+    for section in &ast.sections {
+        match section {
+            ProblemSection::Init(init) => state.init(init, problem),
+            ProblemSection::Goal(formulas) => {
+                let (conditions, bindings): &mut (Vec<Formula>, Bindings<'a>) =
+                    goal.get_or_insert_with(|| (Vec::new(), Bindings::new("the goal".to_owned())));
+                for formula in formulas {
+                    conditions.push(condition::check(formula, 0, bindings, world, state.report));
+                }
+            }
+            ProblemSection::Metric(function, place) => metric = Some((*function, place.0)),
+            _ => {}
+        }
+    }
+    if let Some((conditions, bindings)) = goal {
+        let span = conditions
+            .first()
+            .map_or(problem.name.span, |first| first.nodes[first.root().index()].span);
+        problem.goal = condition::conjoin(conditions, span);
+        problem.goal_scope = bindings.scope;
+    } else if !problem.name.text.is_empty() {
+        report
+            .push(unexpected_item::missing_item("a `(:goal …)` in the problem", problem.name.span));
+    }
+    if let Some((spelling, span)) = metric {
+        problem.metric = read_metric(spelling, span, world, problem, report);
+    }
+}
+
+fn read_metric(
+    spelling: ast::Name<'_>,
+    span: Span,
+    world: &World<'_, '_>,
+    problem: &Problem,
+    report: &mut Report<'_>,
+) -> Option<Metric> {
+    if spelling.is("total-time") && world.names.functions.find(spelling.text).is_none() {
+        let feature = ast::Feature::Metrics;
+        report.unsupported(&ast::Unread { feature, keyword: spelling, node: spelling });
+        return None;
+    }
+    let function = scope::function(spelling, world, report)?;
+    let callee = Callee::function(function, world);
+    if !callee.parameters.is_empty() {
+        callee.report_arity(0, span, world, report);
+        return None;
+    }
+    if !problem.values.iter().any(|value| value.function == function) {
+        report.push(uninitialised_function::uninitialised_function(spelling.text, span));
+    }
+    Some(Metric { function, span })
+}
+
+/// The initial state while it is read.
+struct State<'c, 'w, 'd, 'a> {
+    /// The facts by their position, to drop repetitions.
+    seen: HashTable<u32>,
+    world: &'c World<'w, 'a>,
+    report: &'c mut Report<'d>,
+}
+
+impl<'a> State<'_, '_, '_, 'a> {
+    fn init(&mut self, init: &ast::Init<'a>, problem: &mut Problem) {
+        for entry in &init.entries {
+            let span = entry.place.0;
+            match &entry.kind {
+                EntryKind::Fact(fact) => {
+                    if let Some(fact) = self.fact(fact.name, init.arguments(fact), span) {
+                        self.add(fact, &mut problem.init);
+                    }
+                }
+                // What is not listed is false anyway; the names must be right all the same.
+                EntryKind::Absent(fact) => {
+                    self.fact(fact.name, init.arguments(fact), span);
+                }
+                EntryKind::Value(function, number) => {
+                    let arguments = init.arguments(function);
+                    let Some(id) = scope::function(function.name, self.world, self.report) else {
+                        continue;
+                    };
+                    let arguments =
+                        self.arguments(&Callee::function(id, self.world), arguments, span);
+                    let Some(value) = self::number(number.text) else {
+                        self.report.push(unexpected_item::unexpected_item("a number", number.span));
+                        continue;
+                    };
+                    if let Some(arguments) = arguments {
+                        problem.values.push(FunctionValue { function: id, arguments, value, span });
+                    }
+                }
+                EntryKind::Unread(unread) => self.report.unsupported(unread),
+            }
+        }
+    }
+
+    fn add(&mut self, fact: Fact, facts: &mut Vec<Fact>) {
+        let id = facts.len() as u32;
+        let same = |&other: &u32| facts[other as usize] == fact;
+        let rehash = |&other: &u32| hash(&facts[other as usize]);
+        if let hashbrown::hash_table::Entry::Vacant(entry) =
+            self.seen.entry(hash(&fact), same, rehash)
+        {
+            entry.insert(id);
+            facts.push(fact);
+        }
+    }
+
+    fn fact(
+        &mut self,
+        spelling: ast::Name<'a>,
+        arguments: &[ast::Name<'a>],
+        span: Span,
+    ) -> Option<Fact> {
+        let predicate = scope::predicate(spelling, self.world, self.report)?;
+        let arguments =
+            self.arguments(&Callee::predicate(predicate, self.world), arguments, span)?;
+        Some(Fact { predicate, arguments })
+    }
+
+    fn arguments(
+        &mut self,
+        callee: &Callee<'_>,
+        spellings: &[ast::Name<'a>],
+        span: Span,
+    ) -> Option<Box<[ObjectId]>> {
+        let mut ids = Vec::with_capacity(spellings.len());
+        for &spelling in spellings {
+            if spelling.is_variable() {
+                if self.report.first(&variable_in_init::RULE, spelling.text) {
+                    self.report
+                        .push(variable_in_init::variable_in_init(spelling.text, spelling.span));
+                }
+                continue;
+            }
+            ids.extend(scope::object(spelling, self.world, self.report));
+        }
+        if spellings.len() != callee.parameters.len() {
+            callee.report_arity(spellings.len(), span, self.world, self.report);
+            return None;
+        }
+        if ids.len() != spellings.len() {
+            return None;
+        }
+        for ((&id, &spelling), parameter) in ids.iter().zip(spellings).zip(callee.parameters) {
+            let have = &self.world.objects[id.index()].types;
+            if !self.world.fits(have, true, &parameter.types) {
+                let found = self.world.describe_types(have);
+                callee.report_type(spelling, &found, &parameter.types, self.world, self.report);
+                return None;
+            }
+        }
+        Some(ids.into_boxed_slice())
+    }
+}
+
+fn hash(fact: &Fact) -> u64 {
+    let mut hasher = FxHasher::default();
+    fact.hash(&mut hasher);
+    hasher.finish()
+}
+
+/// A number in any of the forms that tools write: `4`, `4.0`, `.5`, `5.`, `-1`, `1e3`.
+pub(super) fn number(text: &str) -> Option<Decimal> {
+    let text = text.strip_prefix('+').unwrap_or(text);
+    let text = text.strip_suffix('.').unwrap_or(text);
+    if text.contains(['e', 'E']) { Decimal::from_scientific(text).ok() } else { text.parse().ok() }
+}

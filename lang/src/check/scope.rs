@@ -1,0 +1,355 @@
+//! The variables that are bound at a place, and what terms mean there.
+
+use super::index::Index;
+use super::requirement::Need;
+use super::{Report, World, describe_parameters, hierarchy, name};
+use crate::ast::{Name, TypedList};
+use crate::diagnostic::{
+    duplicate_parameter, function_as_predicate, type_mismatch, unknown_function, unknown_object,
+    unknown_predicate, unknown_variable, wrong_arity,
+};
+use crate::model::{
+    Atom, FunctionId, ObjectId, PredicateId, Scope, Term, TypeId, Variable, VariableId,
+};
+use crate::source::Span;
+
+/// The variables of an action, an axiom or a goal while it is checked.
+pub(super) struct Bindings<'a> {
+    pub(super) scope: Scope,
+    visible: Index<'a>,
+    /// Which variables have been used.
+    pub(super) used: Vec<bool>,
+    /// Whether something was used that is not bound, or could not be read, so that nothing can be said about what is unused.
+    pub(super) unsure: bool,
+    /// Whose variables these are: "action `drive`".
+    pub(super) owner: String,
+}
+
+/// What a list of variables hid, to be restored at its end.
+pub(super) type Hidden<'a> = Vec<(&'a str, Option<u32>)>;
+
+impl<'a> Bindings<'a> {
+    /// No variables yet.
+    pub(super) fn new(owner: String) -> Self {
+        Self {
+            scope: Scope::default(),
+            visible: Index::default(),
+            used: Vec::new(),
+            unsure: false,
+            owner,
+        }
+    }
+
+    /// Binds a list of variables.
+    pub(super) fn bind(
+        &mut self,
+        list: &TypedList<'a>,
+        world: &World<'_, 'a>,
+        report: &mut Report<'_>,
+    ) -> (Vec<VariableId>, Hidden<'a>) {
+        let first = self.scope.variables.len() as u32;
+        let mut hidden = Vec::new();
+        for group in &list.groups {
+            let types =
+                hierarchy::resolve(group.types.as_ref(), &world.names.types, "`:types`", report);
+            if let Some(reference) = &group.types {
+                report.need(Need::Types, reference.names[0].span);
+            }
+            for &spelling in &group.names {
+                let id = self.scope.variables.len() as u32;
+                let before = self.visible.insert(spelling.text, id);
+                if let Some(earlier) = before.filter(|&earlier| earlier >= first) {
+                    let earlier = self.scope.variables[earlier as usize].name.span;
+                    report.push(duplicate_parameter::duplicate_parameter(
+                        spelling.text,
+                        &self.owner,
+                        spelling.span,
+                        earlier,
+                    ));
+                    self.unsure = true;
+                } else {
+                    hidden.push((spelling.text, before));
+                }
+                self.scope.variables.push(Variable { name: name(spelling), types: types.clone() });
+                self.used.push(false);
+            }
+        }
+        let bound = (first..self.scope.variables.len() as u32).map(VariableId).collect();
+        (bound, hidden)
+    }
+
+    /// Ends what [`Self::bind`] began.
+    pub(super) fn restore(&mut self, hidden: Hidden<'a>) {
+        for (spelling, before) in hidden {
+            match before {
+                Some(id) => {
+                    self.visible.insert(spelling, id);
+                }
+                None => self.visible.remove(spelling),
+            }
+        }
+    }
+
+    /// A variable that is bound here.
+    fn variable(
+        &mut self,
+        spelling: Name<'a>,
+        world: &World<'_, 'a>,
+        report: &mut Report<'_>,
+    ) -> Option<VariableId> {
+        if let Some(id) = self.visible.find(spelling.text) {
+            self.used[id as usize] = true;
+            return Some(VariableId(id));
+        }
+        self.unsure = true;
+        let key = format!("{} in {}", spelling.text, self.owner);
+        if report.first(&unknown_variable::RULE, &key) {
+            let near = self.visible.nearest(spelling.text);
+            let variables = self.scope.variables.iter().take(SHOWN);
+            let scope: Vec<String> = variables
+                .map(|variable| {
+                    describe_parameters(&world.domain.types, std::slice::from_ref(variable))
+                })
+                .collect();
+            report.push(unknown_variable::unknown_variable(
+                spelling.text,
+                spelling.span,
+                &self.owner,
+                &scope,
+                near,
+            ));
+        }
+        None
+    }
+
+    /// What a term stands for.
+    pub(super) fn term(
+        &mut self,
+        spelling: Name<'a>,
+        world: &World<'_, 'a>,
+        report: &mut Report<'_>,
+    ) -> Option<Term> {
+        if spelling.is_variable() {
+            return self.variable(spelling, world, report).map(Term::Variable);
+        }
+        object(spelling, world, report).map(Term::Object)
+    }
+
+    /// The types of a term, and whether it has all of them.
+    fn types<'w>(&'w self, term: Term, world: &World<'w, 'a>) -> (&'w [TypeId], bool) {
+        match term {
+            Term::Variable(id) => (&self.scope.variables[id.index()].types, false),
+            Term::Object(id) => (&world.objects[id.index()].types, true),
+        }
+    }
+
+    /// The arguments of a predicate or a function, if all are right.
+    fn arguments(
+        &mut self,
+        callee: &Callee<'_>,
+        spellings: &[Name<'a>],
+        span: Span,
+        world: &World<'_, 'a>,
+        report: &mut Report<'_>,
+    ) -> Option<Vec<Term>> {
+        let mut terms = Vec::with_capacity(spellings.len());
+        for &spelling in spellings {
+            terms.extend(self.term(spelling, world, report));
+        }
+        if spellings.len() != callee.parameters.len() {
+            callee.report_arity(spellings.len(), span, world, report);
+            return None;
+        }
+        if terms.len() != spellings.len() {
+            return None;
+        }
+        for ((&term, &spelling), parameter) in terms.iter().zip(spellings).zip(callee.parameters) {
+            let (have, all) = self.types(term, world);
+            if !world.fits(have, all, &parameter.types) {
+                let found = world.describe_types(have);
+                callee.report_type(spelling, &found, &parameter.types, world, report);
+                return None;
+            }
+        }
+        Some(terms)
+    }
+
+    /// A predicate applied to terms.
+    pub(super) fn atom(
+        &mut self,
+        spelling: Name<'a>,
+        arguments: &[Name<'a>],
+        span: Span,
+        world: &World<'_, 'a>,
+        report: &mut Report<'_>,
+    ) -> Option<Atom> {
+        let Some(predicate) = predicate(spelling, world, report) else {
+            self.look_at(arguments, world, report);
+            return None;
+        };
+        let callee = Callee::predicate(predicate, world);
+        let arguments = self.arguments(&callee, arguments, span, world, report)?;
+        Some(Atom { predicate, arguments })
+    }
+
+    /// A function applied to terms.
+    pub(super) fn function(
+        &mut self,
+        spelling: Name<'a>,
+        arguments: &[Name<'a>],
+        span: Span,
+        world: &World<'_, 'a>,
+        report: &mut Report<'_>,
+    ) -> Option<(FunctionId, Vec<Term>)> {
+        let Some(function) = function(spelling, world, report) else {
+            self.look_at(arguments, world, report);
+            return None;
+        };
+        let callee = Callee::function(function, world);
+        let arguments = self.arguments(&callee, arguments, span, world, report)?;
+        Some((function, arguments))
+    }
+
+    /// Checks terms whose meaning does not matter.
+    fn look_at(&mut self, arguments: &[Name<'a>], world: &World<'_, 'a>, report: &mut Report<'_>) {
+        for &argument in arguments {
+            self.term(argument, world, report);
+        }
+    }
+}
+
+/// How many variables a message lists.
+const SHOWN: usize = 12;
+
+/// What is applied to arguments.
+pub(super) struct Callee<'w> {
+    what: &'static str,
+    name: &'w str,
+    pub(super) parameters: &'w [Variable],
+    declared: Span,
+}
+
+impl<'w> Callee<'w> {
+    pub(super) fn predicate(id: PredicateId, world: &World<'w, '_>) -> Self {
+        let declared = &world.domain.predicates[id.index()];
+        Self {
+            what: "predicate",
+            name: &declared.name.text,
+            parameters: &declared.parameters,
+            declared: declared.name.span,
+        }
+    }
+
+    pub(super) fn function(id: FunctionId, world: &World<'w, '_>) -> Self {
+        let declared = &world.domain.functions[id.index()];
+        Self {
+            what: "function",
+            name: &declared.name.text,
+            parameters: &declared.parameters,
+            declared: declared.name.span,
+        }
+    }
+
+    pub(super) fn report_arity(
+        &self,
+        given: usize,
+        span: Span,
+        world: &World<'_, '_>,
+        report: &mut Report<'_>,
+    ) {
+        let missing = self.parameters.get(given..).unwrap_or_default();
+        let missing = describe_parameters(&world.domain.types, missing);
+        let what = format!("{} `{}`", self.what, self.name);
+        report.push(wrong_arity::wrong_arity(
+            &what,
+            self.parameters.len(),
+            given,
+            &missing,
+            span,
+            self.declared,
+        ));
+    }
+
+    pub(super) fn report_type(
+        &self,
+        spelling: Name<'_>,
+        found: &str,
+        wanted: &[TypeId],
+        world: &World<'_, '_>,
+        report: &mut Report<'_>,
+    ) {
+        let wanted = world.describe_types(wanted);
+        let what = format!("{} `{}`", self.what, self.name);
+        report.push(type_mismatch::type_mismatch(
+            spelling.text,
+            found,
+            &what,
+            &wanted,
+            spelling.span,
+            self.declared,
+        ));
+    }
+}
+
+/// The predicate of this name.
+pub(super) fn predicate(
+    spelling: Name<'_>,
+    world: &World<'_, '_>,
+    report: &mut Report<'_>,
+) -> Option<PredicateId> {
+    if let Some(id) = world.names.predicates.find(spelling.text) {
+        return Some(PredicateId(id));
+    }
+    if let Some(id) = world.names.functions.find(spelling.text) {
+        if report.first(&function_as_predicate::RULE, spelling.text) {
+            let declared = world.domain.functions[id as usize].name.span;
+            report.push(function_as_predicate::function_as_predicate(
+                spelling.text,
+                spelling.span,
+                declared,
+            ));
+        }
+    } else if report.first(&unknown_predicate::RULE, spelling.text) {
+        let near = world.names.predicates.nearest(spelling.text);
+        report.push(unknown_predicate::unknown_predicate(spelling.text, spelling.span, near));
+    }
+    None
+}
+
+/// The function of this name.
+pub(super) fn function(
+    spelling: Name<'_>,
+    world: &World<'_, '_>,
+    report: &mut Report<'_>,
+) -> Option<FunctionId> {
+    if let Some(id) = world.names.functions.find(spelling.text) {
+        return Some(FunctionId(id));
+    }
+    if report.first(&unknown_function::RULE, spelling.text) {
+        let near = world.names.functions.nearest(spelling.text);
+        let none = world.names.functions.is_empty();
+        report.push(unknown_function::unknown_function(spelling.text, spelling.span, none, near));
+    }
+    None
+}
+
+/// The object of this name.
+pub(super) fn object(
+    spelling: Name<'_>,
+    world: &World<'_, '_>,
+    report: &mut Report<'_>,
+) -> Option<ObjectId> {
+    if let Some(id) = world.names.objects.find(spelling.text) {
+        return Some(ObjectId(id));
+    }
+    if report.first(&unknown_object::RULE, spelling.text) {
+        let near = world.names.objects.nearest(spelling.text);
+        report.push(unknown_object::unknown_object(
+            spelling.text,
+            spelling.span,
+            world.places,
+            near,
+        ));
+    }
+    None
+}

@@ -1,0 +1,22 @@
+#![doc = include_str!("disjunctive_effect.md")]
+
+use super::{Diagnostic, Rule, Severity};
+use crate::source::Span;
+
+/// The kind `disjunctive-effect`.
+pub const RULE: Rule = Rule {
+    code: "E0402",
+    name: "disjunctive-effect",
+    severity: Severity::Error,
+    page: include_str!("disjunctive_effect.md"),
+};
+
+/// `keyword` leaves open what an effect does.
+pub fn disjunctive_effect(keyword: &str, span: Span) -> Diagnostic {
+    let message = match keyword {
+        "not" => "an effect may negate an atom only".to_owned(),
+        _ => format!("`{keyword}` is a condition; it is not allowed in an effect"),
+    };
+    RULE.at(span, message, "leaves open what happens")
+        .help("say what becomes true and what becomes false; for a choice, write one action for each outcome")
+}

@@ -1,0 +1,66 @@
+#![doc = include_str!("unclosed_paren.md")]
+
+use super::{Diagnostic, Rule, Severity};
+use crate::source::Span;
+
+/// The kind `unclosed-paren`.
+pub const RULE: Rule = Rule {
+    code: "E0001",
+    name: "unclosed-paren",
+    severity: Severity::Error,
+    page: include_str!("unclosed_paren.md"),
+};
+
+/// A list is still open where the section `keyword` starts; `insertion` says where how many `)` are missing.
+pub fn before_section(
+    paren: Span,
+    heading: &str,
+    keyword: Span,
+    section: &str,
+    insertion: (Span, usize),
+) -> Diagnostic {
+    let section = section.to_ascii_lowercase();
+    RULE.at(paren, "this `(` is never closed", format!("`{heading}` opened here"))
+        .label(keyword, format!("a new `{section}` starts here"))
+        .help(format!(
+            "a `)` is missing before this `{section}`: a section cannot contain another section"
+        ))
+        .fix(
+            format!("insert `{}`", ")".repeat(insertion.1.min(8))),
+            insertion.0,
+            ")".repeat(insertion.1),
+        )
+}
+
+/// The text ends while lists are open; `insertion` says where how many `)` are missing.
+pub fn at_end(
+    paren: Span,
+    heading: &str,
+    others: &[String],
+    insertion: (Span, usize),
+) -> Diagnostic {
+    let (place, count) = insertion;
+    let mut label = if heading.is_empty() {
+        "opened here".to_owned()
+    } else {
+        format!("`{heading}` opened here")
+    };
+    let named: Vec<String> = others.iter().rev().map(|other| format!("`({other}`")).collect();
+    let too = match named.as_slice() {
+        [] => String::new(),
+        [one] => format!("; {one} is open too"),
+        [first @ .., last] => format!("; {} and {last} are open too", first.join(", ")),
+    };
+    label.push_str(&too);
+    let message = match count {
+        1 => "unexpected end of file: this `(` is never closed".to_owned(),
+        _ => format!("unexpected end of file: {count} unclosed `(`"),
+    };
+    let missing =
+        if count <= 8 { format!("`{}`", ")".repeat(count)) } else { format!("{count} times `)`") };
+    RULE.at(paren, message, label).help(format!("add {missing} at the end of the file")).fix(
+        format!("append {missing}"),
+        place,
+        ")".repeat(count),
+    )
+}

@@ -1,0 +1,32 @@
+#![doc = include_str!("unknown_function.md")]
+
+use super::{Diagnostic, Rule, Severity};
+use crate::source::Span;
+
+/// The kind `unknown-function`.
+pub const RULE: Rule = Rule {
+    code: "E0107",
+    name: "unknown-function",
+    severity: Severity::Error,
+    page: include_str!("unknown_function.md"),
+};
+
+/// No function `name` is declared.
+pub fn unknown_function(
+    name: &str,
+    span: Span,
+    none_declared: bool,
+    near: Option<&str>,
+) -> Diagnostic {
+    let label = if none_declared {
+        "not declared: the domain has no `:functions`"
+    } else {
+        "not declared in `:functions`"
+    };
+    let diagnostic = RULE.at(span, format!("unknown function `{name}`"), label);
+    match near {
+        Some(_) => diagnostic.suggest(near),
+        None if none_declared => diagnostic.help(format!("add `(:functions ({name}) - number)`")),
+        None => diagnostic.help(format!("declare it: add `({name} …) - number` to `:functions`")),
+    }
+}

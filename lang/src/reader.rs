@@ -1,0 +1,110 @@
+//! The texts of a run go in; models come out, with all that is wrong with the texts.
+
+use logos::Logos;
+
+use crate::ast;
+use crate::check;
+use crate::diagnostic::Diagnostics;
+use crate::lexer::TokenKind;
+use crate::model;
+use crate::source::{SourceId, Sources};
+use crate::syntax;
+use crate::tree;
+
+/// Reads a domain. There is always a model: it contains what could be understood.
+pub fn read_domain(sources: &Sources, id: SourceId) -> (model::Domain, Diagnostics) {
+    let mut diagnostics = Diagnostics::default();
+    let ast = parse_domain(sources, id, &mut diagnostics);
+    let domain = check::domain(&ast, &mut diagnostics);
+    (domain, sorted(diagnostics))
+}
+
+/// Reads a problem of `domain`. There is always a model: it contains what could be understood.
+pub fn read_problem(
+    sources: &Sources,
+    id: SourceId,
+    domain: &model::Domain,
+) -> (model::Problem, Diagnostics) {
+    let mut diagnostics = Diagnostics::default();
+    let ast = parse_problem(sources, id, &mut diagnostics);
+    let problem = check::problem(&ast, domain, &mut diagnostics);
+    (problem, sorted(diagnostics))
+}
+
+/// Reads a domain without resolving names.
+pub fn parse_domain<'a>(
+    sources: &'a Sources,
+    id: SourceId,
+    diagnostics: &mut Diagnostics,
+) -> ast::Domain<'a> {
+    let tree = tree::parse(id, &sources.get(id).text, diagnostics);
+    syntax::domain(&tree, diagnostics)
+}
+
+/// Reads a problem without resolving names.
+pub fn parse_problem<'a>(
+    sources: &'a Sources,
+    id: SourceId,
+    diagnostics: &mut Diagnostics,
+) -> ast::Problem<'a> {
+    let tree = tree::parse(id, &sources.get(id).text, diagnostics);
+    syntax::problem(&tree, diagnostics)
+}
+
+/// Mistakes in the order of the text, whichever step found them.
+fn sorted(mut diagnostics: Diagnostics) -> Diagnostics {
+    diagnostics.list.sort_by_key(|diagnostic| diagnostic.primary.span.start);
+    diagnostics
+}
+
+/// What a text defines.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Kind {
+    /// `(define (domain NAME) …)`
+    Domain {
+        /// Its name.
+        name: String,
+    },
+    /// `(define (problem NAME) (:domain DOMAIN) …)`
+    Problem {
+        /// Its name.
+        name: String,
+        /// The domain that it names.
+        domain: Option<String>,
+    },
+}
+
+/// Looks at the beginning of a text and says what it defines, if it defines anything.
+pub fn detect(sources: &Sources, id: SourceId) -> Option<Kind> {
+    let text = &sources.get(id).text;
+    let mut words = TokenKind::lexer(text)
+        .spanned()
+        .filter(|(kind, _)| {
+            matches!(kind, Ok(TokenKind::Open | TokenKind::Close | TokenKind::Atom))
+        })
+        .map(|(_, range)| &text[range]);
+    let mut word = || words.next();
+    let opening = [word()?, word()?, word()?, word()?];
+    let defines =
+        opening[0] == "(" && opening[1].eq_ignore_ascii_case("define") && opening[2] == "(";
+    if !defines {
+        return None;
+    }
+    let name = word().filter(|name| !matches!(*name, "(" | ")")).unwrap_or("").to_owned();
+    match opening[3].to_ascii_lowercase().as_str() {
+        "domain" => Some(Kind::Domain { name }),
+        "problem" => {
+            let mut before = "";
+            let domain = std::iter::from_fn(word).take(LOOKED_AT).find(|word| {
+                let found = before.eq_ignore_ascii_case(":domain");
+                before = word;
+                found
+            });
+            Some(Kind::Problem { name, domain: domain.map(str::to_owned) })
+        }
+        _ => None,
+    }
+}
+
+/// How many words of a problem are looked at to find its domain, which nearly always comes first.
+const LOOKED_AT: usize = 100_000;

@@ -1,0 +1,163 @@
+//! A [`Tree`] goes in; an [`ast::Domain`] or an [`ast::Problem`] comes out, as far as the text can be understood.
+
+mod list;
+mod formula;
+mod domain;
+mod problem;
+
+use crate::ast::{Feature, Name, Place, Unread};
+use crate::diagnostic::{Diagnostics, not_a_pddl_file, unexpected_item};
+use crate::source::Span;
+use crate::tree::{NodeId, Tree};
+
+pub use domain::domain;
+pub use problem::problem;
+
+/// Reads one tree and says what is wrong with it.
+struct Reader<'a, 't> {
+    tree: &'t Tree<'a>,
+    diagnostics: &'t mut Diagnostics,
+}
+
+impl<'a> Reader<'a, '_> {
+    /// The node as a name.
+    fn name(&self, id: NodeId) -> Name<'a> {
+        Name { text: self.tree.slice(id), span: self.tree.span(id) }
+    }
+
+    fn place(&self, id: NodeId) -> Place {
+        Place(self.tree.span(id))
+    }
+
+    /// The first word of a list.
+    fn head(&self, id: NodeId) -> Option<Name<'a>> {
+        if !self.tree.is_list(id) {
+            return None;
+        }
+        let first = self.tree.children(id).next()?;
+        (!self.tree.is_list(first)).then(|| self.name(first))
+    }
+
+    /// Keeps a list as it is.
+    fn unread(&self, feature: Feature, keyword: Name<'a>, id: NodeId) -> Unread<'a> {
+        Unread { feature, keyword, node: self.name(id) }
+    }
+
+    /// Says that something else is expected where the node stands.
+    fn unexpected(&mut self, expected: &str, id: NodeId) {
+        let span = self.opening(id);
+        self.diagnostics.push(unexpected_item::unexpected_item(expected, span));
+    }
+
+    /// The node, or only its parenthesis and first word if it is a long list.
+    fn opening(&self, id: NodeId) -> Span {
+        let span = self.tree.span(id);
+        if !self.tree.is_list(id) || !self.tree.slice(id).contains('\n') {
+            return span;
+        }
+        let first = self.tree.children(id).next().filter(|&first| !self.tree.is_list(first));
+        let end = first.map_or(span.start + 1, |first| self.tree.node(first).end);
+        Span { end, ..span }
+    }
+
+    /// The list `(define (WHOLE NAME) …)`: the name and the sections after it.
+    fn definition(&mut self, whole: &str) -> (Name<'a>, Vec<NodeId>) {
+        let empty = Span::new(self.tree.source, 0, 0);
+        let nothing = (Name { text: "", span: empty }, Vec::new());
+        let example = format!("a {whole} starts with `(define ({whole} NAME)`");
+        let mut roots = self.tree.roots();
+        let Some(first) = roots.next() else {
+            let diagnostic = not_a_pddl_file::not_a_pddl_file(
+                empty,
+                format!("this file contains no {whole}"),
+                "nothing here",
+                example,
+            );
+            self.diagnostics.push(diagnostic);
+            return nothing;
+        };
+        if !self.head(first).is_some_and(|head| head.is("define")) {
+            let span = self.opening(first);
+            let diagnostic = not_a_pddl_file::not_a_pddl_file(
+                span,
+                "this is not a PDDL file",
+                "expected `(define`",
+                example,
+            );
+            self.diagnostics.push(diagnostic);
+            return nothing;
+        }
+        if let Some(next) = roots.next() {
+            let span = self.opening(next);
+            let diagnostic = not_a_pddl_file::not_a_pddl_file(
+                span,
+                format!("something follows after the end of the {whole}"),
+                "not part of it",
+                format!(
+                    "put each definition into a file of its own, or check the parentheses before this; what follows the {whole} is not read"
+                ),
+            );
+            self.diagnostics.push(diagnostic);
+        }
+        let mut children = self.tree.children(first).skip(1).peekable();
+        let title = children.next_if(|&child| {
+            self.tree.is_list(child)
+                && !self.head(child).is_some_and(|head| head.text.starts_with(':'))
+        });
+        let Some(title) = title else {
+            let keyword =
+                self.tree.children(first).next().map_or(empty, |define| self.tree.span(define));
+            self.diagnostics.push(unexpected_item::missing_item(
+                &format!("`({whole} NAME)` after `define`"),
+                keyword,
+            ));
+            return (nothing.0, children.collect());
+        };
+        (self.title(whole, title), children.collect())
+    }
+
+    /// `(WHOLE NAME)`.
+    fn title(&mut self, whole: &str, title: NodeId) -> Name<'a> {
+        let span = self.tree.span(title);
+        match self.head(title) {
+            Some(head) if head.is(whole) => {}
+            Some(head) if head.is("domain") || head.is("problem") => {
+                let found = head.text.to_ascii_lowercase();
+                let diagnostic = not_a_pddl_file::not_a_pddl_file(
+                    head.span,
+                    format!("this file is a {found}, where a {whole} is expected"),
+                    format!("a {found}"),
+                    "give the domain first and the problem second",
+                );
+                self.diagnostics.push(diagnostic);
+            }
+            _ => self
+                .diagnostics
+                .push(unexpected_item::unexpected_item(&format!("`({whole} NAME)`"), span)),
+        }
+        let name = self.tree.children(title).nth(1).filter(|&child| !self.tree.is_list(child));
+        if let Some(name) = name {
+            return self.name(name);
+        }
+        self.diagnostics
+            .push(unexpected_item::missing_item(&format!("the name of the {whole}"), span));
+        Name { text: "", span }
+    }
+}
+
+/// The word in lower case, if it is short enough to be a keyword.
+fn lower<'b>(word: &str, buffer: &'b mut [u8; 24]) -> &'b str {
+    let Some(target) = buffer.get_mut(..word.len()) else { return "" };
+    target.copy_from_slice(word.as_bytes());
+    target.make_ascii_lowercase();
+    str::from_utf8(target).expect("lowering ASCII letters keeps UTF-8 whole")
+}
+
+/// Whether a word is a number and no name.
+fn is_number(word: &str) -> bool {
+    let digits = word.strip_prefix(['-', '+']).unwrap_or(word);
+    digits.starts_with(|first: char| first.is_ascii_digit())
+        || digits
+            .strip_prefix('.')
+            .is_some_and(|rest| rest.starts_with(|first: char| first.is_ascii_digit()))
+}
