@@ -5,6 +5,7 @@ pub mod normal;
 pub mod normalize;
 pub mod grounded;
 pub mod ground;
+pub mod invariants;
 pub mod task;
 pub mod encode;
 pub mod sas;

@@ -1,7 +1,7 @@
 //! Encoded tasks against the propositional meaning of the ground problems that they stem from.
 
 pub(crate) mod random;
-mod semantics;
+pub(crate) mod semantics;
 
 use proptest::prelude::*;
 

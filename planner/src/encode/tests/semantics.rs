@@ -8,9 +8,9 @@ use crate::grounded::{FactId, Grounded, Literal};
 use crate::task::{Fact, OperatorId, Task, VariableId};
 
 /// All reachable states of a ground problem, derived facts included, and the least cost of a plan.
-pub(super) struct Propositional {
-    pub(super) states: BTreeSet<u32>,
-    pub(super) cost: Option<u32>,
+pub(crate) struct Propositional {
+    pub(crate) states: BTreeSet<u32>,
+    pub(crate) cost: Option<u32>,
     facts: u32,
     derived: u32,
 }
@@ -77,7 +77,7 @@ fn initial(grounded: &Grounded) -> u32 {
 }
 
 /// Whether the operators can be applied in turn and end in the goal.
-pub(super) fn solves(grounded: &Grounded, plan: &[u32]) -> bool {
+pub(crate) fn solves(grounded: &Grounded, plan: &[u32]) -> bool {
     let end = plan.iter().try_fold(initial(grounded), |state, &operator| {
         successor(grounded, operator as usize, state)
     });
@@ -107,7 +107,7 @@ fn dijkstra<S: Ord + Clone>(
 }
 
 impl Propositional {
-    pub(super) fn explore(grounded: &Grounded) -> Self {
+    pub(crate) fn explore(grounded: &Grounded) -> Self {
         let successors = |&state: &u32| {
             let apply = |operator: usize| {
                 Some((
@@ -137,7 +137,7 @@ impl Propositional {
     }
 
     /// Some mutex groups that really are: from each fact on, further facts in an order that the seed decides.
-    pub(super) fn groups(&self, seed: u64) -> Vec<Vec<FactId>> {
+    pub(crate) fn groups(&self, seed: u64) -> Vec<Vec<FactId>> {
         let apart =
             |a: u32, b: u32| self.states.iter().all(|state| state >> a & state >> b & 1 == 0);
         let mut groups = Vec::new();
@@ -161,10 +161,10 @@ impl Propositional {
 }
 
 /// All reachable states of a task, derived variables included, and a cheapest plan.
-pub(super) struct Reached {
-    pub(super) states: Vec<Vec<u32>>,
-    pub(super) cost: Option<u32>,
-    pub(super) plan: Option<Vec<OperatorId>>,
+pub(crate) struct Reached {
+    pub(crate) states: Vec<Vec<u32>>,
+    pub(crate) cost: Option<u32>,
+    pub(crate) plan: Option<Vec<OperatorId>>,
 }
 
 fn all(facts: &[Fact], state: &[u32]) -> bool {
@@ -198,7 +198,7 @@ fn evaluate(task: &Task, mut state: Vec<u32>) -> Vec<u32> {
     state
 }
 
-pub(super) fn explore(encoded: &Encoded) -> Reached {
+pub(crate) fn explore(encoded: &Encoded) -> Reached {
     let task = &encoded.task;
     let successors = |state: &Vec<u32>| {
         let apply = |operator: OperatorId| {
@@ -232,7 +232,7 @@ pub(super) fn explore(encoded: &Encoded) -> Reached {
 }
 
 /// The facts that some value of the task names.
-pub(super) fn visible(encoded: &Encoded) -> u32 {
+pub(crate) fn visible(encoded: &Encoded) -> u32 {
     encoded.values.iter().fold(0, |mask, value| match value {
         Value::Atom(fact) | Value::Negated(fact) => mask | 1 << fact.0,
         Value::Other => mask,
@@ -240,7 +240,7 @@ pub(super) fn visible(encoded: &Encoded) -> u32 {
 }
 
 /// The states as sets of facts. A fact with two variables must say the same twice.
-pub(super) fn project(encoded: &Encoded, states: &[Vec<u32>]) -> BTreeSet<u32> {
+pub(crate) fn project(encoded: &Encoded, states: &[Vec<u32>]) -> BTreeSet<u32> {
     let decode = |state: &Vec<u32>| {
         let (mut holds, mut fails) = (0u32, 0u32);
         for (variable, &now) in state.iter().enumerate() {
