@@ -9,6 +9,7 @@ mod relaxed;
 pub mod hmax;
 pub mod hadd;
 pub mod ff;
+pub mod lmcut;
 
 use crate::task::{OperatorId, Task};
 
@@ -101,11 +102,13 @@ pub enum Kind {
     Hadd,
     /// [`ff`].
     Ff,
+    /// [`lmcut`].
+    LmCut,
 }
 
 impl Kind {
     /// All, in the order of [`list`].
-    pub const ALL: [Self; 5] = [Self::Blind, Self::GoalCount, Self::Hmax, Self::Hadd, Self::Ff];
+    pub const ALL: [Self; 6] = [Self::Blind, Self::GoalCount, Self::Hmax, Self::Hadd, Self::Ff, Self::LmCut];
 
     /// What may be relied on.
     pub fn profile(self) -> Profile {
@@ -115,6 +118,7 @@ impl Kind {
             Self::Hmax => hmax::profile(),
             Self::Hadd => hadd::profile(),
             Self::Ff => ff::profile(),
+            Self::LmCut => lmcut::profile(),
         }
     }
 
@@ -137,6 +141,7 @@ impl Kind {
             Self::Hmax => Box::new(hmax::Hmax::new(task, costs)),
             Self::Hadd => Box::new(hadd::Hadd::new(task, costs)),
             Self::Ff => Box::new(ff::Ff::new(task, costs)),
+            Self::LmCut => Box::new(lmcut::LmCut::new(task, costs)),
         }
     }
 }

@@ -129,7 +129,7 @@ pub fn list() -> Vec<Profile> {
 /// The strategy that is run for a configuration: one that names an engine.
 pub fn choose(_task: &Task, strategy: Strategy) -> Strategy {
     match strategy {
-        Strategy::Optimal => Strategy::AStar(Kind::Blind),
+        Strategy::Optimal => Strategy::AStar(Kind::LmCut),
         Strategy::First => Strategy::Lazy(Kind::Ff),
         named => named,
     }
