@@ -347,7 +347,7 @@ impl<'a> Resolver<'a> {
                 vec![Label { span: action.name.span, text: "declared here".to_owned() }],
                 Some(format!(
                     "write `({})`",
-                    [&[action.name.text.clone()], each.as_slice()].concat().join(" ")
+                    [std::slice::from_ref(&action.name.text), each.as_slice()].concat().join(" ")
                 )),
             ));
             return false;

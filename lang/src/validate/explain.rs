@@ -120,9 +120,10 @@ impl Explainer<'_> {
                 Shape::Atom(atom, wanted) => self.atom(ground(atom, &binding), wanted),
                 Shape::Equal(left, right, wanted) => {
                     let object = |term| value(term, &binding).expect("the condition is closed");
-                    match wanted {
-                        true => What::Different(object(left), object(right)),
-                        false => What::Same(object(left)),
+                    if wanted {
+                        What::Different(object(left), object(right))
+                    } else {
+                        What::Same(object(left))
                     }
                 }
                 Shape::Any(goals) if depth < DEEPEST => {

@@ -9,7 +9,7 @@ use rustc_hash::FxHashSet;
 use super::{Part, Place, Run, What};
 use crate::execute::query::{Goal, Query};
 use crate::execute::{Executor, State, bind};
-use crate::model::{ActionId, Atom, Fact, Term, VariableId};
+use crate::model::{ActionId, Atom, Fact, ObjectId, Term, VariableId};
 use crate::plan::Step;
 
 /// How many steps the search may execute.
@@ -98,7 +98,7 @@ struct Search<'a> {
     budget: usize,
 }
 
-impl<'a> Search<'a> {
+impl Search<'_> {
     /// Tries all moves of which the first change is at `position`, where `state` holds.
     fn moves(&mut self, state: &State, position: usize) -> Option<Repair> {
         let (failing, count) = (self.failing, self.steps.len());
@@ -189,7 +189,7 @@ impl<'a> Search<'a> {
         &self,
         (positive, atom): (bool, &Atom),
         (fact, wanted): (&Fact, bool),
-    ) -> Option<Vec<(VariableId, crate::model::ObjectId)>> {
+    ) -> Option<Vec<(VariableId, ObjectId)>> {
         if self.executor.feeds(atom.predicate, fact.predicate) {
             return Some(Vec::new());
         }

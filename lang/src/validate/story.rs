@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::words::Words;
+use super::words::{Words, list};
 use super::{Cause, Failure, Part, Place, Repair, Success, Verdict, What};
 use crate::diagnostic::{Diagnostic, Label, Severity};
 use crate::execute::Misfit;
@@ -115,7 +115,7 @@ impl Teller<'_> {
             Cause::Undefined(undefined) => {
                 let name = &self.words.domain.functions[undefined.function.index()].name.text;
                 let objects = undefined.arguments.iter().map(|&object| self.words.object(object));
-                format!("its cost needs {}, which has no value", self.words.list(name, objects))
+                format!("its cost needs {}, which has no value", list(name, objects))
             }
         };
         format!("at {step}: {reason}")
