@@ -1,5 +1,6 @@
 //! `lang::execute` and `lang::validate` against a second interpreter, which grounds everything and is too simple to be wrong in the same way.
 
+mod depth;
 mod naive;
 mod random;
 
