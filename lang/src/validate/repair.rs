@@ -66,8 +66,9 @@ pub(super) fn search(run: &Run<'_>, place: Place, parts: &[Part]) -> Repair {
             break;
         }
     }
-    // An alternative would need only one of its parts, and which one is not ours to say.
-    let plain = parts.iter().all(|part| !matches!(part.what, What::Unmet { .. }));
+    // Facts alone do not mend an equality, and of an alternative's parts it is not ours to choose.
+    let plain =
+        parts.iter().all(|part| matches!(part.what, What::Missing { .. } | What::Forbidden { .. }));
     if plain && !search.needs.is_empty() { Repair::Set(search.needs) } else { Repair::None }
 }
 
@@ -84,7 +85,7 @@ fn gather(parts: &[Part], needs: &mut Vec<(Fact, bool)>, culprits: &mut Vec<usiz
                 culprits.extend(since);
             }
             What::Unmet { parts, .. } => gather(parts, needs, culprits),
-            What::Different(..) | What::Same(_) => {}
+            What::Different { .. } | What::Same { .. } => {}
         }
     }
 }
