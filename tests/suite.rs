@@ -1,5 +1,4 @@
 //! The one test binary: every module is a family of end-to-end tests.
 
 mod costs;
-mod domains;
 mod tidy;

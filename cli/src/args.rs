@@ -264,6 +264,7 @@ pub enum Only {
 }
 
 /// `caveat bench`.
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of the command line")]
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -297,6 +298,9 @@ pub struct Bench {
     /// Resident memory for each task.
     #[arg(long, value_name = "SIZE", value_parser = bytes, default_value = "6G")]
     pub memory_limit: u64,
+    /// Measure again what was measured while the machine had other work (load above 1.5); reports take the better row.
+    #[arg(long)]
+    pub again: bool,
     /// The program to measure as ours [default: this one].
     #[arg(long, value_name = "PROGRAM")]
     pub ours: Option<PathBuf>,

@@ -82,7 +82,7 @@ fn measure(arguments: &args::Bench, terminal: &mut Terminal) -> io::Result<Exit>
                 seconds: allowance.cpu.as_secs_f64(),
                 mebibytes: allowance.memory >> 20,
             };
-            if !rows.contains(&key) {
+            if !rows.contains(&key, arguments.again) {
                 let row = one(side, arguments, task, &shared, &meter, key)?;
                 if interrupted.load(Ordering::Relaxed) {
                     bar.finish_and_clear();
@@ -115,7 +115,8 @@ fn one(
         &ipc.join(&task.problem),
         &meter.allowance,
     );
-    let measured = meter.run(command, folder.path())?;
+    let mut measured = meter.run(command, folder.path())?;
+    measured.code = side.code(arguments.list, measured.code);
     let plan = folder.path().join("sas_plan");
     if plan.is_file() {
         let kept = row::plan_file(&arguments.out, arguments.list, side.name(), &key.problem);

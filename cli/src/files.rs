@@ -117,9 +117,17 @@ pub fn folder(path: &Path) -> &Path {
 
 /// Writes a file so that it is there as a whole or not at all: to a temporary file beside it, which is then renamed.
 pub fn write(path: &Path, text: &[u8]) -> Result<(), Complaint> {
+    write_with(path, |out| out.write_all(text))
+}
+
+/// As [`write`], for text that is made while it is written.
+pub fn write_with(
+    path: &Path,
+    work: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Complaint> {
     let whole = || -> io::Result<()> {
         let mut file = tempfile::Builder::new().prefix(".caveat-").tempfile_in(folder(path))?;
-        file.write_all(text)?;
+        work(file.as_file_mut())?;
         // Temporary files are private; what is left is a file like any other of this user.
         let permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666 & !umask());
         file.as_file().set_permissions(permissions)?;

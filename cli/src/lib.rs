@@ -22,7 +22,15 @@ pub mod terminal;
 pub mod files;
 pub mod limits;
 pub mod fault;
+pub mod input;
+pub mod pipeline;
+pub mod progress;
+pub mod check;
+pub mod plan;
+pub mod validate;
+pub mod ground;
 pub mod bench;
+pub mod explain;
 pub mod completions;
 
 use args::{Arguments, Verb};
@@ -70,9 +78,13 @@ fn dispatch(arguments: &[OsString], terminal: &mut Terminal) -> Exit {
         Err(error) => return refuse(arguments, &error, terminal),
     };
     match parsed.verb {
+        Verb::Check(arguments) => check::run(&arguments, terminal),
+        Verb::Plan(arguments) => plan::run(&arguments, terminal),
+        Verb::Validate(arguments) => validate::run(&arguments, terminal),
+        Verb::Ground(arguments) => ground::run(&arguments, terminal),
+        Verb::Explain(arguments) => explain::run(&arguments, terminal),
         Verb::Bench(arguments) => bench::run(&arguments, terminal),
         Verb::Completions(arguments) => completions::run(&arguments, terminal),
-        _ => Exit::Failed,
     }
 }
 

@@ -7,32 +7,48 @@ use std::io::{self, ErrorKind, Write};
 pub struct Terminal<'a> {
     out: &'a mut (dyn Write + Send),
     err: &'a mut (dyn Write + Send),
-    /// Whether messages may have colours.
+    /// Whether talk may have colours.
     pub colour: bool,
+    /// Whether data may have colours.
+    pub data_colour: bool,
     /// Whether a person watches the error stream, so that progress may be shown.
     pub watched: bool,
-    /// The reader of the output has gone: what would be written is dropped.
-    closed: bool,
-    /// The output could not be written for another reason.
-    failure: Option<io::Error>,
+    state: State,
+}
+
+/// What has become of the output.
+enum State {
+    /// It takes what is written.
+    Open,
+    /// Its reader has gone: what would be written is dropped.
+    Closed,
+    /// It could not be written for another reason.
+    Failed(io::Error),
 }
 
 impl<'a> Terminal<'a> {
     /// Both streams, without colours and progress.
     pub fn new(out: &'a mut (dyn Write + Send), err: &'a mut (dyn Write + Send)) -> Self {
-        Self { out, err, colour: false, watched: false, closed: false, failure: None }
+        Self { out, err, colour: false, data_colour: false, watched: false, state: State::Open }
     }
 
     /// Writes data as it is.
     pub fn data(&mut self, text: impl fmt::Display) {
-        if self.closed {
+        self.attempt(|out| write!(out, "{text}"));
+    }
+
+    /// Lets `work` write data. It sees no error of the output: a failure is kept for [`Self::finish`].
+    pub fn write_with(&mut self, work: impl FnOnce(&mut dyn Write) -> io::Result<()>) {
+        self.attempt(|mut out| work(&mut out));
+    }
+
+    fn attempt(&mut self, work: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>) {
+        if !matches!(self.state, State::Open) {
             return;
         }
-        if let Err(error) = write!(self.out, "{text}") {
-            self.closed = true;
-            if error.kind() != ErrorKind::BrokenPipe {
-                self.failure = Some(error);
-            }
+        if let Err(error) = work(self.out) {
+            let gone = error.kind() == ErrorKind::BrokenPipe;
+            self.state = if gone { State::Closed } else { State::Failed(error) };
         }
     }
 
@@ -46,20 +62,28 @@ impl<'a> Terminal<'a> {
         let _ = writeln!(self.err, "{text}");
     }
 
+    /// Writes talk as it is.
+    pub fn talk(&mut self, text: impl fmt::Display) {
+        let _ = write!(self.err, "{text}");
+    }
+
+    /// Hands over what is held back, so that whoever reads the output sees it now.
+    pub fn flush(&mut self) {
+        self.attempt(|out| out.flush());
+    }
+
     /// Whether nobody reads the output any more.
     pub fn is_closed(&self) -> bool {
-        self.closed
+        matches!(self.state, State::Closed)
     }
 
     /// Hands over what is still held back; an output that could not be written, other than for lack of a reader, is an error.
     pub fn finish(&mut self) -> io::Result<()> {
-        if let Some(failure) = self.failure.take() {
-            return Err(failure);
-        }
+        self.flush();
         let _ = self.err.flush();
-        match self.out.flush() {
-            Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error),
-            _ => Ok(()),
+        match std::mem::replace(&mut self.state, State::Closed) {
+            State::Failed(error) => Err(error),
+            State::Open | State::Closed => Ok(()),
         }
     }
 }

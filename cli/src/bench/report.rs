@@ -111,6 +111,16 @@ fn head(text: &mut String, arguments: &Bench, pairs: &[Pair], seconds: f64) {
     if let Some(row) = pairs.iter().find_map(|pair| pair.peer.as_ref()) {
         let _ = writeln!(text, "Peer: program {}.", row.key.program);
     }
+    let busy = |side: fn(&Pair) -> Option<&Row>| {
+        pairs.iter().filter_map(side).filter(|row| !row.is_quiet()).count()
+    };
+    let (ours, peer) = (busy(|pair| pair.ours.as_ref()), busy(|pair| pair.peer.as_ref()));
+    if ours + peer > 0 {
+        let _ = writeln!(
+            text,
+            "Measured beside other work on the machine: {ours} rows of ours, {peer} of the peer."
+        );
+    }
     text.push('\n');
 }
 

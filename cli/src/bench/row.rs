@@ -200,6 +200,11 @@ impl Row {
         (cells.len() == columns.len()).then_some(Self { key, verdict, cpu, cells })
     }
 
+    /// Whether the machine had nothing else to do when this was measured.
+    pub(super) fn is_quiet(&self) -> bool {
+        self.number("load").is_some_and(|load| load <= 1.5)
+    }
+
     /// The number in a column, if there is one.
     pub(super) fn number(&self, column: &str) -> Option<f64> {
         self.cells.get(column)?.parse().ok()
@@ -233,9 +238,11 @@ impl Rows {
         Ok(Self { rows, file })
     }
 
-    /// Whether the run that `key` names has been measured.
-    pub(super) fn contains(&self, key: &Key) -> bool {
-        self.rows.iter().any(|row| row.key == *key && row.verdict != Verdict::Wall)
+    /// Whether the run that `key` names has been measured; if only `quiet` rows count, while the machine had nothing else to do.
+    pub(super) fn contains(&self, key: &Key, quiet: bool) -> bool {
+        self.rows.iter().any(|row| {
+            row.key == *key && row.verdict != Verdict::Wall && (!quiet || row.is_quiet())
+        })
     }
 
     /// Writes a row at once.

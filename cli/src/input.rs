@@ -1,0 +1,293 @@
+//! Paths of a domain and a problem go in; both as checked models come out, or what is wrong with them is said.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use lang::Kind;
+use lang::diagnostic::{Diagnostic, Diagnostics, Severity, unsupported_feature};
+use lang::model::{Domain, Problem};
+use lang::render;
+use lang::source::{SourceId, Sources};
+use planner::normalize::Unsupported;
+
+use crate::args::OutputFormat;
+use crate::exit::Exit;
+use crate::files::{self, Complaint};
+use crate::terminal::Terminal;
+
+/// The files read so far, each once, so that the standard input can be named as any of them.
+#[derive(Debug, Default)]
+pub struct Reader {
+    /// Their texts.
+    pub sources: Sources,
+    taken: Vec<(PathBuf, SourceId)>,
+}
+
+/// A task.
+#[derive(Debug)]
+pub struct Input {
+    /// The files that it was read from.
+    pub reader: Reader,
+    /// The domain.
+    pub domain: Domain,
+    /// The problem.
+    pub problem: Problem,
+}
+
+/// Why there is no task.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Refusal {
+    /// A file is missing or wrong.
+    Wrong,
+    /// The files are well formed but ask for what is not read yet.
+    Unsupported,
+}
+
+impl Refusal {
+    /// How `plan` ends then.
+    pub fn of_plan(self) -> Exit {
+        match self {
+            Self::Wrong => Exit::Input,
+            Self::Unsupported => Exit::Unsupported,
+        }
+    }
+}
+
+impl Reader {
+    /// Everything that is wrong with the files in `paths`: domains alone, problems with the domain that is among the files
+    /// or else lies beside them.
+    pub fn check(&mut self, paths: &[PathBuf]) -> Result<Diagnostics, Complaint> {
+        let mut found = Diagnostics::default();
+        let mut domains = Vec::new();
+        for path in paths {
+            if !matches!(self.kind(path)?, Some(Kind::Problem { .. })) {
+                domains.push(self.checked(path, &mut found)?);
+            }
+        }
+        for path in paths {
+            let Some(Kind::Problem { domain: wanted, .. }) = self.kind(path)? else { continue };
+            let problem = self.take(path)?;
+            let named = |domain: &&Domain| {
+                wanted.as_ref().is_none_or(|wanted| domain.name.text.eq_ignore_ascii_case(wanted))
+            };
+            if domains.iter().find(named).is_none() {
+                let beside = self.find_domain(path)?;
+                // Its warnings are for whoever checks it; its errors explain errors of the problem.
+                let mut more = Diagnostics::default();
+                let domain = self.checked(&beside, &mut more)?;
+                more.list.retain(|diagnostic| diagnostic.severity == Severity::Error);
+                found.append(more);
+                domains.push(domain);
+            }
+            let domain =
+                domains.iter().find(named).or(domains.last()).expect("one has just been added");
+            found.append(lang::read_problem(&self.sources, problem, domain).1);
+        }
+        Ok(found)
+    }
+
+    /// Reads a domain and adds what is wrong with it.
+    fn checked(&mut self, path: &Path, found: &mut Diagnostics) -> Result<Domain, Complaint> {
+        let id = self.take(path)?;
+        let (domain, more) = lang::read_domain(&self.sources, id);
+        found.append(more);
+        Ok(domain)
+    }
+
+    /// Reads a file, unless it has been read.
+    pub fn take(&mut self, path: &Path) -> Result<SourceId, Complaint> {
+        if let Some((_, id)) = self.taken.iter().find(|(taken, _)| taken == path) {
+            return Ok(*id);
+        }
+        let text = files::read(path)?;
+        let id = self.sources.add(files::name(path), text);
+        self.taken.push((path.to_path_buf(), id));
+        Ok(id)
+    }
+
+    /// What a file defines, if anything.
+    pub fn kind(&mut self, path: &Path) -> Result<Option<Kind>, Complaint> {
+        let id = self.take(path)?;
+        Ok(lang::detect(&self.sources, id))
+    }
+
+    /// The domain and the problem among the paths of a command line; a domain that is left out is looked for.
+    fn task(&mut self, paths: &[PathBuf], verb: &str) -> Result<(SourceId, SourceId), Complaint> {
+        match paths {
+            [problem] => {
+                if let Some(Kind::Domain { .. }) = self.kind(problem)? {
+                    return Err(Complaint::with_help(
+                        format!("`{}` is a domain, and there is no problem", files::name(problem)),
+                        format!(
+                            "name the problem as well: caveat {verb} {} PROBLEM",
+                            listed(paths)
+                        ),
+                    ));
+                }
+                let domain = self.find_domain(problem)?;
+                Ok((self.take(&domain)?, self.take(problem)?))
+            }
+            [domain, problem] => {
+                let kinds = (self.kind(domain)?, self.kind(problem)?);
+                let message = match kinds {
+                    (Some(Kind::Problem { .. }), Some(Kind::Domain { .. })) => {
+                        "the domain comes first, then the problem"
+                    }
+                    (Some(Kind::Domain { .. }), Some(Kind::Domain { .. })) => {
+                        "both files are domains"
+                    }
+                    (Some(Kind::Problem { .. }), Some(Kind::Problem { .. })) => {
+                        "both files are problems"
+                    }
+                    _ => return Ok((self.take(domain)?, self.take(problem)?)),
+                };
+                let help = match kinds {
+                    (Some(Kind::Problem { .. }), Some(Kind::Domain { .. })) => {
+                        format!("caveat {verb} {}", listed(&[problem.clone(), domain.clone()]))
+                    }
+                    (Some(Kind::Domain { .. }), _) => {
+                        format!("caveat {verb} {} PROBLEM", listed(&paths[..1]))
+                    }
+                    _ => format!("caveat {verb} DOMAIN {}", listed(&paths[1..])),
+                };
+                Err(Complaint::with_help(message, help))
+            }
+            _ => unreachable!("the command line takes one or two files"),
+        }
+    }
+
+    /// The domain of the problem in `path`, which lies beside it.
+    pub fn find_domain(&mut self, path: &Path) -> Result<PathBuf, Complaint> {
+        if files::is_stdin(path) {
+            return Err(Complaint::with_help(
+                "the domain of a problem on the standard input cannot be found beside it",
+                "name the domain as well: DOMAIN -",
+            ));
+        }
+        let named = [path.with_file_name("domain.pddl")];
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let short = stem.split('-').next().unwrap_or(&stem);
+        let usual = [
+            format!("{stem}-domain.pddl"),
+            format!("domain_{stem}.pddl"),
+            format!("domain-{stem}.pddl"),
+            format!("{short}-domain.pddl"),
+        ];
+        let candidates =
+            named.into_iter().chain(usual.into_iter().map(|name| path.with_file_name(name)));
+        if let Some(found) =
+            candidates.filter(|candidate| candidate != path).find(|candidate| candidate.is_file())
+        {
+            return Ok(found);
+        }
+        self.only_domain(path)
+    }
+
+    /// The only file beside `path` that defines the domain that it names.
+    fn only_domain(&mut self, path: &Path) -> Result<PathBuf, Complaint> {
+        let wanted = match self.kind(path)? {
+            Some(Kind::Problem { domain, .. }) => domain,
+            _ => None,
+        };
+        let mut beside: Vec<PathBuf> = fs::read_dir(files::folder(path))
+            .into_iter()
+            .flatten()
+            .flatten()
+            .map(|entry| path.with_file_name(entry.file_name()))
+            .filter(|file| {
+                file.extension().is_some_and(|extension| extension == "pddl") && file != path
+            })
+            .collect();
+        beside.sort();
+        beside.retain(|file| {
+            let mut sources = Sources::default();
+            let id = sources.add(files::name(file), fs::read_to_string(file).unwrap_or_default());
+            match (lang::detect(&sources, id), &wanted) {
+                (Some(Kind::Domain { name }), Some(wanted)) => name.eq_ignore_ascii_case(wanted),
+                (Some(Kind::Domain { .. }), None) => true,
+                _ => false,
+            }
+        });
+        let name = files::name(path);
+        let wanted = wanted
+            .map_or_else(|| "a domain".to_string(), |wanted| format!("the domain `{wanted}`"));
+        match beside.as_slice() {
+            [only] => Ok(only.clone()),
+            [] => Err(Complaint::with_help(
+                format!("no file beside `{name}` defines {wanted}"),
+                format!("name the domain before the problem: DOMAIN {name}"),
+            )),
+            several => Err(Complaint::with_help(
+                format!("several files beside `{name}` define {wanted}: {}", listed(several)),
+                format!(
+                    "name one of them before the problem, such as: {} {name}",
+                    several[0].display()
+                ),
+            )),
+        }
+    }
+}
+
+impl Input {
+    /// Shows one diagnostic.
+    pub fn report(&self, diagnostic: Diagnostic, format: OutputFormat, terminal: &mut Terminal) {
+        let mut list = Diagnostics::default();
+        list.push(diagnostic);
+        terminal.talk(rendered(&self.reader.sources, &list, format, terminal.colour));
+    }
+}
+
+/// Reads the task that `paths` name. What is wrong is said: errors only, since warnings are for `check`.
+pub fn load(
+    mut reader: Reader,
+    verb: &str,
+    paths: &[PathBuf],
+    format: OutputFormat,
+    terminal: &mut Terminal,
+) -> Result<Input, Refusal> {
+    let (domain_id, problem_id) = match reader.task(paths, verb) {
+        Ok(ids) => ids,
+        Err(complaint) => {
+            terminal.say(complaint);
+            return Err(Refusal::Wrong);
+        }
+    };
+    let (domain, mut found) = lang::read_domain(&reader.sources, domain_id);
+    let (problem, more) = lang::read_problem(&reader.sources, problem_id, &domain);
+    found.append(more);
+    found.list.retain(|diagnostic| diagnostic.severity == Severity::Error);
+    if found.list.is_empty() {
+        return Ok(Input { reader, domain, problem });
+    }
+    terminal.talk(rendered(&reader.sources, &found, format, terminal.colour));
+    let unsupported =
+        found.list.iter().all(|diagnostic| diagnostic.code == unsupported_feature::RULE.code);
+    Err(if unsupported { Refusal::Unsupported } else { Refusal::Wrong })
+}
+
+/// What the planner does not plan, as a diagnostic.
+pub fn unsupported(unsupported: &Unsupported) -> Diagnostic {
+    unsupported_feature::RULE.at(
+        unsupported.span,
+        unsupported.message.clone(),
+        "this cannot be planned",
+    )
+}
+
+/// Diagnostics as text.
+pub fn rendered(
+    sources: &Sources,
+    found: &Diagnostics,
+    format: OutputFormat,
+    colour: bool,
+) -> String {
+    match format {
+        OutputFormat::Full => render::full(found, sources, colour),
+        OutputFormat::Concise => render::concise(found, sources),
+    }
+}
+
+/// Paths as they stand on a command line.
+pub fn listed(paths: &[PathBuf]) -> String {
+    paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(" ")
+}

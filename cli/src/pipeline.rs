@@ -1,0 +1,87 @@
+//! The rooms of the planner in a row: a checked task goes in, plans leave through a callback, and how it ended comes out.
+//!
+//! This is the one place where the command line and the planner meet.
+
+use std::time::Duration;
+
+use lang::model::{Domain, Problem};
+use lang::plan::Plan;
+use planner::encode::{self, Encoded};
+use planner::ground::{self, Outcome};
+use planner::grounded::Grounded;
+use planner::invariants;
+use planner::limits::Stop;
+use planner::normalize::{self, Unsupported};
+use planner::sas::write::Names;
+use planner::search::{self, Config, Statistics, Status};
+
+use crate::limits::{Watch, cpu_time};
+
+/// A ground task.
+#[derive(Debug)]
+pub struct Task {
+    /// With finite-domain variables.
+    pub encoded: Encoded,
+    /// Before it had them.
+    pub grounded: Grounded,
+    /// What its parts are called.
+    pub names: Names,
+}
+
+/// Why there is no ground task.
+#[derive(Debug)]
+pub enum Obstacle {
+    /// The planner does not plan this.
+    Unsupported(Unsupported),
+    /// The goal cannot be reached even when deletes are ignored.
+    Unreachable,
+    /// It was told to stop, while doing this.
+    Stopped(Stop, &'static str),
+}
+
+/// How a search ended.
+#[derive(Debug)]
+pub struct End {
+    /// With what.
+    pub status: Status,
+    /// Whether the last plan is proved to be an optimal one.
+    pub optimal: bool,
+    /// What it did.
+    pub statistics: Statistics,
+    /// CPU time that it took.
+    pub time: Duration,
+}
+
+/// Grounds a problem.
+pub fn ground(domain: &Domain, problem: &Problem, watch: &Watch) -> Result<Task, Obstacle> {
+    let normal = normalize::normalize(domain, problem).map_err(Obstacle::Unsupported)?;
+    let limits = &watch.limits;
+    let grounded = match ground::ground(domain, problem, &normal, limits) {
+        Ok(Outcome::Grounded(grounded)) => *grounded,
+        Ok(Outcome::Unsolvable) => return Err(Obstacle::Unreachable),
+        Err(interrupted) => return Err(Obstacle::Stopped(interrupted.stop, interrupted.phase)),
+    };
+    let groups = invariants::groups(domain, problem, &normal, &grounded, limits);
+    let encoded = encode::encode(&grounded, &groups, limits);
+    let encoded = encoded.map_err(|stop| Obstacle::Stopped(stop, "making variables"))?;
+    if encoded.unsolvable {
+        return Err(Obstacle::Unreachable);
+    }
+    Ok(Task { encoded, grounded, names: Names::new(domain, problem, &normal) })
+}
+
+/// Searches a ground task; every plan that is cheaper than those before goes to `found`.
+pub fn search(task: Task, config: &Config, watch: &Watch, mut found: impl FnMut(Plan)) -> End {
+    let decoder = task.encoded.decoder(task.grounded);
+    watch.searching();
+    let start = cpu_time();
+    let mut on_plan =
+        |operators: &[planner::task::OperatorId], _: u64| found(decoder.plan(operators));
+    let outcome = search::run(&task.encoded.task, config, &watch.limits, &mut on_plan);
+    End {
+        status: outcome.status,
+        optimal: outcome.optimal,
+        statistics: outcome.statistics,
+        time: cpu_time().saturating_sub(start),
+    }
+}
