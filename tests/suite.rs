@@ -1,4 +1,5 @@
 //! The one test binary: every module is a family of end-to-end tests.
 
 mod costs;
+mod domains;
 mod tidy;

@@ -84,7 +84,9 @@ impl<'a> Executor<'a> {
             let mut types: Vec<_> = object.types.iter().flat_map(above).collect();
             types.sort();
             types.dedup();
-            types.iter().for_each(|id| members[id.index()].push(ObjectId(at as u32)));
+            for id in types {
+                members[id.index()].push(ObjectId(at as u32));
+            }
         }
         // Of several values for the same arguments the last one counts, as an assignment would.
         let values = problem

@@ -39,7 +39,8 @@ impl Evaluator {
         for (axiom, index) in task.axioms.iter().zip(0..) {
             for condition in task.conditions(&axiom.conditions) {
                 pairs.push((offsets[condition.variable.index()] + condition.value, index));
-                is_input[condition.variable.index()] |= task.variables[condition.variable.index()].axiom_layer.is_none();
+                is_input[condition.variable.index()] |=
+                    task.variables[condition.variable.index()].axiom_layer.is_none();
             }
         }
         let (user_starts, users) = by_key(&pairs, fact_count as usize);
@@ -51,15 +52,28 @@ impl Evaluator {
             }
         }
         layers.retain(|layer| !layer.is_empty());
-        let conditions: Vec<u32> = task.axioms.iter().map(|axiom| axiom.conditions.len() as u32).collect();
+        let conditions: Vec<u32> =
+            task.axioms.iter().map(|axiom| axiom.conditions.len() as u32).collect();
         Self {
             offsets,
             users,
             user_starts,
-            inputs: (0..).zip(&is_input).filter(|&(_, &input)| input).map(|(variable, _)| variable).collect(),
+            inputs: (0..)
+                .zip(&is_input)
+                .filter(|&(_, &input)| input)
+                .map(|(variable, _)| variable)
+                .collect(),
             layers,
-            heads: task.axioms.iter().map(|axiom| (axiom.head.variable.0, axiom.head.value)).collect(),
-            facts: (0..).zip(&conditions).filter(|&(_, &count)| count == 0).map(|(axiom, _)| axiom).collect(),
+            heads: task
+                .axioms
+                .iter()
+                .map(|axiom| (axiom.head.variable.0, axiom.head.value))
+                .collect(),
+            facts: (0..)
+                .zip(&conditions)
+                .filter(|&(_, &count)| count == 0)
+                .map(|(axiom, _)| axiom)
+                .collect(),
             unsatisfied: conditions.clone(),
             conditions,
             queue: Vec::new(),
@@ -100,7 +114,9 @@ impl Evaluator {
     #[inline]
     fn satisfy(&mut self, (variable, value): (u32, u32), values: &mut [u32]) {
         let fact = (self.offsets[variable as usize] + value) as usize;
-        for &axiom in &self.users[self.user_starts[fact] as usize..self.user_starts[fact + 1] as usize] {
+        for &axiom in
+            &self.users[self.user_starts[fact] as usize..self.user_starts[fact + 1] as usize]
+        {
             let left = &mut self.unsatisfied[axiom as usize];
             *left -= 1;
             if *left == 0 {

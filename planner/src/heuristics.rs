@@ -17,7 +17,10 @@ use crate::task::{OperatorId, Task};
 pub const DEAD_END: u32 = u32::MAX;
 
 /// What may be relied on.
-#[expect(clippy::struct_excessive_bools, reason = "each is an independent promise, printed as a column of its own")]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is an independent promise, printed as a column of its own"
+)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Profile {
     /// As it is called on the command line.
@@ -130,7 +133,8 @@ impl Kind {
     /// Whether it keeps its promises on this task.
     pub fn supports(self, task: &Task) -> bool {
         let profile = self.profile();
-        (profile.conditional_effects || !task.has_conditional_effects()) && (profile.axioms || !task.has_axioms())
+        (profile.conditional_effects || !task.has_conditional_effects())
+            && (profile.axioms || !task.has_axioms())
     }
 
     /// Sets it up for a task.

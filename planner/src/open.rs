@@ -170,7 +170,11 @@ mod tests {
             for (key, item) in [((7, 0), 1), ((3, 1), 2), ((3, 2), 3), ((3, 2), 4), ((3, 1), 5)] {
                 open.push(key, item);
             }
-            assert_eq!(drain(&mut open).iter().map(|entry| entry.1).collect::<Vec<_>>(), expected, "{order:?}");
+            assert_eq!(
+                drain(&mut open).iter().map(|entry| entry.1).collect::<Vec<_>>(),
+                expected,
+                "{order:?}"
+            );
         }
     }
 
@@ -188,7 +192,10 @@ mod tests {
             seen.extend(drain(&mut open).iter().map(|entry| entry.1));
             let expected: Vec<u32> = match order {
                 Order::Fifo => (0..2000).collect(),
-                Order::Lifo => (0..1000).map(|item| 2 * item + 1).chain((0..1000).rev().map(|item| 2 * item)).collect(),
+                Order::Lifo => (0..1000)
+                    .map(|item| 2 * item + 1)
+                    .chain((0..1000).rev().map(|item| 2 * item))
+                    .collect(),
             };
             assert_eq!(seen, expected, "{order:?}");
         }
@@ -209,7 +216,8 @@ mod tests {
                 small.push((2, 2), item);
                 huge.push((2, 2), item);
             }
-            let items = |open: &mut Open<u32>| drain(open).iter().map(|entry| entry.1).collect::<Vec<_>>();
+            let items =
+                |open: &mut Open<u32>| drain(open).iter().map(|entry| entry.1).collect::<Vec<_>>();
             assert_eq!(items(&mut small), items(&mut huge), "{order:?}");
         }
     }

@@ -93,7 +93,9 @@ impl Registry {
         self.table = HashTable::with_capacity(capacity);
         let (segments, width) = (&self.segments, self.width);
         for id in 0..self.len {
-            self.table.insert_unique(hash(words(segments, width, id)), id, |&id| hash(words(segments, width, id)));
+            self.table.insert_unique(hash(words(segments, width, id)), id, |&id| {
+                hash(words(segments, width, id))
+            });
         }
     }
 }

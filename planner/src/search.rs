@@ -136,8 +136,20 @@ pub fn choose(_task: &Task, strategy: Strategy) -> Strategy {
 }
 
 /// Searches for plans. Each plan that is cheaper than those before goes to `on_plan` with its cost.
-pub fn run(task: &Task, config: &Config, limits: &Limits, on_plan: &mut dyn FnMut(&[OperatorId], u64)) -> Outcome {
-    let mut run = Run { limits, progress: config.progress.as_deref(), statistics: Statistics::default(), on_plan, best: None, overflow: false };
+pub fn run(
+    task: &Task,
+    config: &Config,
+    limits: &Limits,
+    on_plan: &mut dyn FnMut(&[OperatorId], u64),
+) -> Outcome {
+    let mut run = Run {
+        limits,
+        progress: config.progress.as_deref(),
+        statistics: Statistics::default(),
+        on_plan,
+        best: None,
+        overflow: false,
+    };
     let mut space = Space::new(task);
     let end = match choose(task, config.strategy) {
         Strategy::AStar(kind) => {
@@ -162,7 +174,9 @@ pub fn run(task: &Task, config: &Config, limits: &Limits, on_plan: &mut dyn FnMu
         _ if run.overflow => Status::Incomplete,
         _ => Status::Unsolvable,
     };
-    let optimal = run.best.is_some() && matches!(config.strategy, Strategy::Optimal | Strategy::AStar(_)) && !matches!(end, End::Stopped(_));
+    let optimal = run.best.is_some()
+        && matches!(config.strategy, Strategy::Optimal | Strategy::AStar(_))
+        && !matches!(end, End::Stopped(_));
     Outcome { status, optimal, statistics: run.statistics }
 }
 
@@ -226,9 +240,17 @@ impl Run<'_> {
     }
 
     /// Reads the plan to `goal` off and hands it on, if it is cheaper than those before.
-    fn solved(&mut self, space: &mut Space, goal: StateId, parent: impl Fn(StateId) -> StateId) -> End {
+    fn solved(
+        &mut self,
+        space: &mut Space,
+        goal: StateId,
+        parent: impl Fn(StateId) -> StateId,
+    ) -> End {
         let plan = space.trace(goal, parent);
-        let cost = plan.iter().map(|operator| u64::from(space.task().operators[operator.index()].cost)).sum();
+        let cost = plan
+            .iter()
+            .map(|operator| u64::from(space.task().operators[operator.index()].cost))
+            .sum();
         if self.best.is_none_or(|best| cost < best) {
             self.best = Some(cost);
             (self.on_plan)(&plan, cost);
@@ -263,7 +285,8 @@ impl FromStr for Strategy {
     fn from_str(text: &str) -> Result<Self, String> {
         let (name, heuristic) = match text.strip_suffix(')').and_then(|text| text.split_once('(')) {
             Some((name, heuristic)) => {
-                let kind = Kind::named(heuristic).ok_or_else(|| format!("there is no heuristic `{heuristic}`"))?;
+                let kind = Kind::named(heuristic)
+                    .ok_or_else(|| format!("there is no heuristic `{heuristic}`"))?;
                 (name, Some(kind))
             }
             None => (text, None),

@@ -74,7 +74,12 @@ impl<'t> Space<'t> {
 
     /// The state after `operator` in `state`, whose loaded values are `values`; and whether it is new.
     #[inline]
-    pub fn successor(&mut self, state: StateId, values: &[u32], operator: OperatorId) -> (StateId, bool) {
+    pub fn successor(
+        &mut self,
+        state: StateId,
+        values: &[u32],
+        operator: OperatorId,
+    ) -> (StateId, bool) {
         self.words.copy_from_slice(self.registry.words(state));
         self.packer.apply(self.task, operator, values, &mut self.words);
         self.registry.insert(&self.words)
@@ -102,7 +107,11 @@ impl<'t> Space<'t> {
     /// The operators from the initial state to `state`, where `parent` gives the predecessor of each state and the initial state is its own.
     ///
     /// Nodes do not store operators: between a state and its predecessor stands the cheapest operator that leads there, the first of equals.
-    pub fn trace(&mut self, mut state: StateId, parent: impl Fn(StateId) -> StateId) -> Vec<OperatorId> {
+    pub fn trace(
+        &mut self,
+        mut state: StateId,
+        parent: impl Fn(StateId) -> StateId,
+    ) -> Vec<OperatorId> {
         let mut plan = Vec::new();
         let mut values = self.task.initial_state.clone();
         let mut operators = Vec::new();
@@ -114,14 +123,24 @@ impl<'t> Space<'t> {
             }
             self.load(before, &mut values);
             self.applicable(&values, &mut operators);
-            operators.sort_by_key(|&operator| (self.task.operators[operator.index()].cost, operator));
-            let step = operators.iter().copied().find(|&operator| self.leads_to(before, &values, operator, state));
+            operators
+                .sort_by_key(|&operator| (self.task.operators[operator.index()].cost, operator));
+            let step = operators
+                .iter()
+                .copied()
+                .find(|&operator| self.leads_to(before, &values, operator, state));
             plan.push(step.expect("a state is reached from its parent by some operator"));
             state = before;
         }
     }
 
-    fn leads_to(&mut self, state: StateId, values: &[u32], operator: OperatorId, target: StateId) -> bool {
+    fn leads_to(
+        &mut self,
+        state: StateId,
+        values: &[u32],
+        operator: OperatorId,
+        target: StateId,
+    ) -> bool {
         self.words.copy_from_slice(self.registry.words(state));
         self.packer.apply(self.task, operator, values, &mut self.words);
         self.words == self.registry.words(target)

@@ -73,7 +73,8 @@ impl Packer {
         for (index, field) in fields.iter().enumerate() {
             field_of[field.variable as usize] = index as u32;
         }
-        let mut packer = Self { fields, field_of, words, transitions: Transitions::default(), goal: None };
+        let mut packer =
+            Self { fields, field_of, words, transitions: Transitions::default(), goal: None };
         packer.transitions = packer.transitions_of(task);
         packer.goal = packer.goal_of(task);
         packer
@@ -91,7 +92,11 @@ impl Packer {
 
     fn write_of(&self, fact: Fact) -> Write {
         let field = self.field(fact.variable).expect("operators set state variables only");
-        Write { word: field.word, keep: !(field.mask << field.shift), set: fact.value << field.shift }
+        Write {
+            word: field.word,
+            keep: !(field.mask << field.shift),
+            set: fact.value << field.shift,
+        }
     }
 
     fn transitions_of(&self, task: &Task) -> Transitions {
@@ -102,13 +107,19 @@ impl Packer {
             let effects = task.effects(operator);
             if effects.iter().any(|effect| !effect.conditions.is_empty()) {
                 for effect in effects {
-                    transitions.guarded.push(Guarded { conditions: effect.conditions.clone(), write: self.write_of(effect.fact) });
+                    transitions.guarded.push(Guarded {
+                        conditions: effect.conditions.clone(),
+                        write: self.write_of(effect.fact),
+                    });
                 }
             } else {
                 let first = transitions.plain.len();
                 for effect in effects {
                     let write = self.write_of(effect.fact);
-                    match transitions.plain[first..].iter_mut().find(|other| other.word == write.word) {
+                    match transitions.plain[first..]
+                        .iter_mut()
+                        .find(|other| other.word == write.word)
+                    {
                         Some(other) => {
                             other.keep &= write.keep;
                             other.set = (other.set & write.keep) | write.set;
@@ -143,7 +154,10 @@ impl Packer {
     pub fn pack(&self, values: &[u32], words: &mut [u32]) {
         words.fill(0);
         for field in &self.fields {
-            debug_assert!(values[field.variable as usize] <= field.mask, "a value is less than the domain size");
+            debug_assert!(
+                values[field.variable as usize] <= field.mask,
+                "a value is less than the domain size"
+            );
             words[field.word as usize] |= values[field.variable as usize] << field.shift;
         }
     }
@@ -152,7 +166,8 @@ impl Packer {
     #[inline]
     pub fn unpack(&self, words: &[u32], values: &mut [u32]) {
         for field in &self.fields {
-            values[field.variable as usize] = (words[field.word as usize] >> field.shift) & field.mask;
+            values[field.variable as usize] =
+                (words[field.word as usize] >> field.shift) & field.mask;
         }
     }
 
@@ -161,10 +176,14 @@ impl Packer {
     pub fn apply(&self, task: &Task, operator: OperatorId, values: &[u32], words: &mut [u32]) {
         let index = operator.index();
         let table = &self.transitions;
-        for write in &table.plain[table.plain_starts[index] as usize..table.plain_starts[index + 1] as usize] {
+        for write in
+            &table.plain[table.plain_starts[index] as usize..table.plain_starts[index + 1] as usize]
+        {
             write.apply(words);
         }
-        for guarded in &table.guarded[table.guarded_starts[index] as usize..table.guarded_starts[index + 1] as usize] {
+        for guarded in &table.guarded
+            [table.guarded_starts[index] as usize..table.guarded_starts[index + 1] as usize]
+        {
             if holds(task.conditions(&guarded.conditions), values) {
                 guarded.write.apply(words);
             }
@@ -174,7 +193,9 @@ impl Packer {
     /// Whether the goal holds, if that can be read from the words alone.
     #[inline]
     pub fn is_goal(&self, words: &[u32]) -> Option<bool> {
-        self.goal.as_ref().map(|goal| goal.iter().all(|&(word, mask, value)| words[word as usize] & mask == value))
+        self.goal.as_ref().map(|goal| {
+            goal.iter().all(|&(word, mask, value)| words[word as usize] & mask == value)
+        })
     }
 }
 

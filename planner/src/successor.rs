@@ -43,7 +43,11 @@ impl Successors {
             match item & ((1 << TAG_BITS) - 1) {
                 END => return,
                 LEAF => {
-                    found.extend(self.code[at + 1..=at + payload].iter().map(|&operator| OperatorId(operator)));
+                    found.extend(
+                        self.code[at + 1..=at + payload]
+                            .iter()
+                            .map(|&operator| OperatorId(operator)),
+                    );
                     at += 1 + payload;
                 }
                 TEST => {
@@ -94,7 +98,8 @@ fn block(task: &Task, operators: &[OperatorId], depth: usize, code: &mut Vec<u32
         }
     }
     items.push(END);
-    let start = u32::try_from(code.len()).expect("the tree is smaller than the operators' preconditions, which are indexed by u32");
+    let start = u32::try_from(code.len())
+        .expect("the tree is smaller than the operators' preconditions, which are indexed by u32");
     code.extend(items);
     start
 }

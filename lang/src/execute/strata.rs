@@ -70,7 +70,9 @@ pub(crate) fn uses(formula: &Formula) -> Vec<Use> {
             NodeKind::Atom(_) | NodeKind::Equal(..) => {}
             NodeKind::Not(child) => set(*child, !value),
             NodeKind::And(children) | NodeKind::Or(children) => {
-                children.iter().for_each(|&child| set(child, value))
+                for &child in children {
+                    set(child, value);
+                }
             }
             NodeKind::Imply(left, right) => {
                 set(*left, !value);
@@ -247,8 +249,7 @@ fn beside(body: &Formula, uses: &[Use], atom: NodeId) -> Option<Vec<Goal>> {
         match (body.kind(parent), value) {
             (NodeKind::Not(_), _)
             | (NodeKind::And(_), false)
-            | (NodeKind::Or(_), true)
-            | (NodeKind::Imply(..), true) => {}
+            | (NodeKind::Or(_) | NodeKind::Imply(..), true) => {}
             (NodeKind::And(children), true) | (NodeKind::Or(children), false) => {
                 goals.extend(
                     children

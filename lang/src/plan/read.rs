@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 
 use super::{Plan, Step};
 use crate::diagnostic::{Diagnostic, Diagnostics, Fix, Label, Severity};
-use crate::model::{ActionId, Domain, Name, ObjectId, Problem, Variable};
+use crate::model::{ActionId, Domain, Name, ObjectId, Problem, TypeId, Variable};
 use crate::source::{SourceId, Sources, Span};
 
 /// A plan as it was read.
@@ -345,10 +345,7 @@ impl<'a> Resolver<'a> {
                 ),
                 Label { span, text: format!("{} here", arguments(words.len())) },
                 vec![Label { span: action.name.span, text: "declared here".to_owned() }],
-                Some(format!(
-                    "write `({})`",
-                    [&[action.name.text.clone()], each.as_slice()].concat().join(" ")
-                )),
+                (!each.is_empty()).then(|| format!("its parameters are `{}`", each.join(" "))),
             ));
             return false;
         }
@@ -376,19 +373,14 @@ impl<'a> Resolver<'a> {
         fits
     }
 
-    fn types(&self, types: &[crate::model::TypeId]) -> String {
+    fn types(&self, types: &[TypeId]) -> String {
         let names: Vec<_> =
             types.iter().map(|id| self.domain.types[id.index()].name.text.as_str()).collect();
         names.join("` or `")
     }
 
     fn parameter(&self, parameter: &Variable) -> String {
-        let types: Vec<_> = parameter
-            .types
-            .iter()
-            .map(|id| self.domain.types[id.index()].name.text.as_str())
-            .collect();
-        format!("{}-{}", parameter.name.text, types.join("/"))
+        format!("{} - {}", parameter.name.text, self.types(&parameter.types).replace('`', ""))
     }
 }
 

@@ -11,7 +11,7 @@ use crate::source::Span;
 const DEEPEST: usize = 4;
 
 /// How many parts of one condition are told.
-const MOST: usize = 20;
+pub(super) const MOST: usize = 20;
 
 /// How many conditions are evaluated to find them.
 const EVALUATIONS: usize = 10_000;
@@ -45,10 +45,20 @@ pub enum What {
         /// The last step since which it holds; none if it held from the beginning.
         since: Option<usize>,
     },
-    /// The objects must be the same and are two.
-    Different(ObjectId, ObjectId),
-    /// The object must differ from itself.
-    Same(ObjectId),
+    /// Two terms must be the same object and are these.
+    Different {
+        /// The condition as it is written.
+        text: String,
+        /// The objects.
+        objects: [ObjectId; 2],
+    },
+    /// Two terms must be different objects and are both this one.
+    Same {
+        /// The condition as it is written.
+        text: String,
+        /// The object.
+        object: ObjectId,
+    },
     /// No alternative holds, or no object will do.
     Unmet {
         /// The condition, with objects in place of its parameters.
@@ -120,17 +130,21 @@ impl Explainer<'_> {
                 Shape::Atom(atom, wanted) => self.atom(ground(atom, &binding), wanted),
                 Shape::Equal(left, right, wanted) => {
                     let object = |term| value(term, &binding).expect("the condition is closed");
-                    match wanted {
-                        true => What::Different(object(left), object(right)),
-                        false => What::Same(object(left)),
+                    let text = self.text(goal, node, &vec![None; binding.len()]);
+                    if wanted {
+                        What::Different { text, objects: [object(left), object(right)] }
+                    } else {
+                        What::Same { text, object: object(left) }
                     }
                 }
                 Shape::Any(goals) if depth < DEEPEST => {
                     let text = self.text(goal, node, &binding);
                     let each = goals.into_iter().rev();
-                    let parts = each
+                    let mut parts: Vec<_> = each
+                        .take(MOST)
                         .flat_map(|goal| self.parts(goal, binding.clone(), depth + 1))
                         .collect();
+                    parts.truncate(MOST);
                     What::Unmet { text, parts }
                 }
                 Shape::Any(_) | Shape::Some(..) => {

@@ -9,7 +9,7 @@ use rustc_hash::FxHashSet;
 use super::{Part, Place, Run, What};
 use crate::execute::query::{Goal, Query};
 use crate::execute::{Executor, State, bind};
-use crate::model::{ActionId, Atom, Fact, Term, VariableId};
+use crate::model::{ActionId, Atom, Fact, ObjectId, Term, VariableId};
 use crate::plan::Step;
 
 /// How many steps the search may execute.
@@ -66,8 +66,9 @@ pub(super) fn search(run: &Run<'_>, place: Place, parts: &[Part]) -> Repair {
             break;
         }
     }
-    // An alternative would need only one of its parts, and which one is not ours to say.
-    let plain = parts.iter().all(|part| !matches!(part.what, What::Unmet { .. }));
+    // Facts alone do not mend an equality, and of an alternative's parts it is not ours to choose.
+    let plain =
+        parts.iter().all(|part| matches!(part.what, What::Missing { .. } | What::Forbidden { .. }));
     if plain && !search.needs.is_empty() { Repair::Set(search.needs) } else { Repair::None }
 }
 
@@ -84,7 +85,7 @@ fn gather(parts: &[Part], needs: &mut Vec<(Fact, bool)>, culprits: &mut Vec<usiz
                 culprits.extend(since);
             }
             What::Unmet { parts, .. } => gather(parts, needs, culprits),
-            What::Different(..) | What::Same(_) => {}
+            What::Different { .. } | What::Same { .. } => {}
         }
     }
 }
@@ -98,7 +99,7 @@ struct Search<'a> {
     budget: usize,
 }
 
-impl<'a> Search<'a> {
+impl Search<'_> {
     /// Tries all moves of which the first change is at `position`, where `state` holds.
     fn moves(&mut self, state: &State, position: usize) -> Option<Repair> {
         let (failing, count) = (self.failing, self.steps.len());
@@ -189,7 +190,7 @@ impl<'a> Search<'a> {
         &self,
         (positive, atom): (bool, &Atom),
         (fact, wanted): (&Fact, bool),
-    ) -> Option<Vec<(VariableId, crate::model::ObjectId)>> {
+    ) -> Option<Vec<(VariableId, ObjectId)>> {
         if self.executor.feeds(atom.predicate, fact.predicate) {
             return Some(Vec::new());
         }

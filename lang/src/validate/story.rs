@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use super::words::Words;
+use super::explain::MOST;
+use super::words::{Words, list};
 use super::{Cause, Failure, Part, Place, Repair, Success, Verdict, What};
 use crate::diagnostic::{Diagnostic, Label, Severity};
 use crate::execute::Misfit;
@@ -62,7 +63,7 @@ impl Failure {
         let mut labels = match &self.cause {
             Cause::False(parts) => parts
                 .iter()
-                .map(|part| Label { span: part.span, text: teller.part(part) })
+                .map(|part| Label { span: part.span, text: teller.part(part, false) })
                 .collect(),
             Cause::Misfit(_) | Cause::Undefined(_) => {
                 vec![Label { span: self.span, text: String::new() }]
@@ -97,10 +98,10 @@ struct Teller<'a> {
 }
 
 impl Teller<'_> {
-    /// `step 3, (stack a b)`.
+    /// `step 3 (stack a b)`.
     fn step(&self, at: usize) -> String {
         let step = &self.plan.steps[at];
-        format!("step {}, {}", at + 1, plan::line(step, self.words.domain, self.words.problem))
+        format!("step {} {}", at + 1, plan::line(step, self.words.domain, self.words.problem))
     }
 
     /// Where the plan fails and of what.
@@ -115,7 +116,7 @@ impl Teller<'_> {
             Cause::Undefined(undefined) => {
                 let name = &self.words.domain.functions[undefined.function.index()].name.text;
                 let objects = undefined.arguments.iter().map(|&object| self.words.object(object));
-                format!("its cost needs {}, which has no value", self.words.list(name, objects))
+                format!("its cost needs {}, which has no value", list(name, objects))
             }
         };
         format!("at {step}: {reason}")
@@ -142,16 +143,21 @@ impl Teller<'_> {
 
     fn list(&self, text: &mut String, parts: &[Part], depth: usize) {
         for part in parts {
-            let line = self.part(part);
+            let line = self.part(part, depth > 1);
             writeln!(text, "{:indent$}{line}", "", indent = depth * 2)
                 .expect("a string takes all that is written to it");
             if let What::Unmet { parts, .. } = &part.what {
                 self.list(text, parts, depth + 1);
             }
         }
+        if parts.len() == MOST {
+            writeln!(text, "{:indent$}…", "", indent = depth * 2)
+                .expect("a string takes all that is written to it");
+        }
     }
 
-    fn part(&self, part: &Part) -> String {
+    /// A false part in words; as one of several alternatives it is not said what it must be.
+    fn part(&self, part: &Part, alternative: bool) -> String {
         match &part.what {
             What::Missing { fact, since } => {
                 let derived = self.words.domain.predicates[fact.predicate.index()].derived;
@@ -171,16 +177,17 @@ impl Teller<'_> {
                     None if derived => "a rule derives it".to_owned(),
                     None => "it holds since the beginning".to_owned(),
                 };
-                format!("{} is true and must be false: {cause}", self.words.fact(fact))
+                let must = if alternative { "" } else { " and must be false" };
+                format!("{} is true{must}: {cause}", self.words.fact(fact))
             }
-            What::Different(left, right) => format!(
-                "{} and {} must be the same object",
-                self.words.object(*left),
-                self.words.object(*right)
-            ),
-            What::Same(object) => format!("{} must differ from itself", self.words.object(*object)),
-            What::Unmet { text, parts } if parts.is_empty() => format!("{text} does not hold"),
-            What::Unmet { text, .. } => format!("no alternative of {text} holds"),
+            What::Different { text, objects: [left, right] } => {
+                let (left, right) = (self.words.object(*left), self.words.object(*right));
+                format!("{text} is false: {left} and {right} are two objects")
+            }
+            What::Same { text, object } => {
+                format!("{text} is false: both are {}", self.words.object(*object))
+            }
+            What::Unmet { text, .. } => format!("{text} does not hold"),
         }
     }
 
@@ -211,7 +218,7 @@ impl Teller<'_> {
                     .iter()
                     .map(|(fact, value)| format!("set {} to {value}", self.words.fact(fact)))
                     .collect();
-                Some(format!("no one step mends the plan; {}", each.join(", and ")))
+                Some(format!("no one step was found that mends the plan; {}", each.join(", and ")))
             }
             Repair::None => None,
         }

@@ -23,17 +23,7 @@ impl Words<'_> {
 
     pub(super) fn fact(self, fact: &Fact) -> String {
         let name = &self.domain.predicates[fact.predicate.index()].name.text;
-        self.list(name, fact.arguments.iter().map(|&object| self.object(object)))
-    }
-
-    pub(super) fn list(self, name: &str, arguments: impl Iterator<Item = String>) -> String {
-        let mut text = format!("({name}");
-        for argument in arguments {
-            text.push(' ');
-            text.push_str(&argument);
-        }
-        text.push(')');
-        text
+        list(name, fact.arguments.iter().map(|&object| self.object(object)))
     }
 
     /// `a`, or `a or b` for several types.
@@ -57,7 +47,7 @@ impl Words<'_> {
         }
         let mut text = String::new();
         let mut pieces = vec![Piece::Node(node)];
-        let list = |pieces: &mut Vec<Piece>, children: &[NodeId]| {
+        let below = |pieces: &mut Vec<Piece>, children: &[NodeId]| {
             pieces.push(Piece::Text(")"));
             for &child in children.iter().rev() {
                 pieces.push(Piece::Node(child));
@@ -80,36 +70,36 @@ impl Words<'_> {
             match formula.kind(node) {
                 NodeKind::Atom(Atom { predicate, arguments }) => {
                     let name = &self.domain.predicates[predicate.index()].name.text;
-                    text.push_str(&self.list(name, arguments.iter().map(term)));
+                    text.push_str(&list(name, arguments.iter().map(term)));
                 }
                 NodeKind::Equal(left, right) => {
-                    text.push_str(&self.list("=", [left, right].into_iter().map(term)));
+                    text.push_str(&list("=", [left, right].into_iter().map(term)));
                 }
                 NodeKind::Not(child) => {
                     text.push_str("(not");
-                    list(&mut pieces, &[*child]);
+                    below(&mut pieces, &[*child]);
                 }
                 NodeKind::And(children) => {
                     text.push_str("(and");
-                    list(&mut pieces, children);
+                    below(&mut pieces, children);
                 }
                 NodeKind::Or(children) => {
                     text.push_str("(or");
-                    list(&mut pieces, children);
+                    below(&mut pieces, children);
                 }
                 NodeKind::Imply(left, right) => {
                     text.push_str("(imply");
-                    list(&mut pieces, &[*left, *right]);
+                    below(&mut pieces, &[*left, *right]);
                 }
                 NodeKind::Forall(variables, child) => {
                     text.push_str("(forall ");
                     text.push_str(&self.variables(scope, variables));
-                    list(&mut pieces, &[*child]);
+                    below(&mut pieces, &[*child]);
                 }
                 NodeKind::Exists(variables, child) => {
                     text.push_str("(exists ");
                     text.push_str(&self.variables(scope, variables));
-                    list(&mut pieces, &[*child]);
+                    below(&mut pieces, &[*child]);
                 }
             }
         }
@@ -141,4 +131,15 @@ impl Words<'_> {
             .collect();
         format!("({})", each.join(" "))
     }
+}
+
+/// `(name argument …)`.
+pub(super) fn list(name: &str, arguments: impl Iterator<Item = String>) -> String {
+    let mut text = format!("({name}");
+    for argument in arguments {
+        text.push(' ');
+        text.push_str(&argument);
+    }
+    text.push(')');
+    text
 }

@@ -1,9 +1,11 @@
 //! `lang::execute` and `lang::validate` against a second interpreter, which grounds everything and is too simple to be wrong in the same way.
 
+mod depth;
 mod naive;
 mod random;
 
 use lang::execute::Executor;
+use lang::model::Fact;
 use lang::plan::Plan;
 use lang::validate::{Verdict, is_valid, judge};
 use naive::Naive;
@@ -15,7 +17,7 @@ fn tape() -> impl Strategy<Value = Tape> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1500))]
+    #![proptest_config(ProptestConfig { cases: 1500, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn both_interpreters_agree_on_states_steps_and_goals(mut tape in tape()) {
@@ -41,6 +43,13 @@ proptest! {
             let before = state.clone();
             let change = executor.apply(&mut state, &step);
             facts = naive.apply(&facts, &step);
+            let lost = |from: Vec<Fact>, to: Vec<Fact>| from.into_iter().filter(|fact| !to.contains(fact)).collect::<Vec<_>>();
+            let sorted = |mut facts: Vec<Fact>| {
+                facts.sort();
+                facts
+            };
+            prop_assert_eq!(sorted(change.added.clone()), lost(state.facts(), before.facts()));
+            prop_assert_eq!(sorted(change.deleted.clone()), lost(before.facts(), state.facts()));
             let mut back = state.clone();
             executor.revert(&mut back, &change);
             prop_assert_eq!(back.facts(), before.facts());

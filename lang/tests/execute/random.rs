@@ -179,10 +179,10 @@ fn action(at: usize, arities: &[usize], tape: &mut Tape) -> Action {
     let visible: Vec<_> = (0..scope.parameters).map(VariableId).collect();
     let mut builder = Builder { tape, arities, scope };
     let precondition = builder.formula(&visible, 3);
-    let effects = (0..1 + builder.tape.below(3))
+    let effects = (0..=builder.tape.below(3))
         .map(|_| {
             let (variables, visible, condition) = builder.guard(&visible);
-            let literals = (0..1 + builder.tape.below(2))
+            let literals = (0..=builder.tape.below(2))
                 .map(|_| {
                     let atom = builder.atom(&visible, BASE);
                     Literal { positive: !builder.tape.flag(), atom, span: SPAN }
@@ -230,7 +230,7 @@ impl World {
         for head in BASE..arities.len() {
             // An early axiom sees fewer predicates, so that not every domain is circular.
             let seen = if tape.below(4) == 3 { arities.len() } else { head + 1 };
-            for _ in 0..1 + tape.below(2) {
+            for _ in 0..=tape.below(2) {
                 axioms.push(axiom(head, &arities[..seen], tape));
             }
         }

@@ -29,7 +29,8 @@ pub struct Blind {
 impl Blind {
     /// For `task`.
     pub fn new(task: &Task, costs: Costs) -> Self {
-        let cheapest = task.operator_ids().map(|operator| costs.of(task, operator)).min().unwrap_or(0);
+        let cheapest =
+            task.operator_ids().map(|operator| costs.of(task, operator)).min().unwrap_or(0);
         Self { goal: task.goal.clone(), cheapest }
     }
 }

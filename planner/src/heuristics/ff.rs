@@ -89,7 +89,8 @@ impl Ff {
                 *mark = self.now;
                 cost = cost.saturating_add(self.costs[origin as usize]);
             }
-            if needs.iter().all(|&need| self.exploration.facts[need as usize].supporter == NO_RULE) {
+            if needs.iter().all(|&need| self.exploration.facts[need as usize].supporter == NO_RULE)
+            {
                 self.preferred.push(OperatorId(origin));
             }
         }

@@ -84,10 +84,12 @@ mod tests {
     use super::{MOST_BUCKETS, Queue};
 
     fn drain(queue: &mut Queue) -> Vec<u32> {
-        std::iter::from_fn(|| queue.pop()).map(|(cost, fact)| {
-            assert_eq!(cost % 100, fact, "an entry keeps its cost");
-            cost
-        }).collect()
+        std::iter::from_fn(|| queue.pop())
+            .map(|(cost, fact)| {
+                assert_eq!(cost % 100, fact, "an entry keeps its cost");
+                cost
+            })
+            .collect()
     }
 
     #[test]

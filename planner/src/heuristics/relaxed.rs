@@ -43,7 +43,8 @@ impl Relaxation {
             offsets.push(facts);
             facts += variable.domain_size;
         }
-        let mut relaxation = Self { offsets, facts: facts as usize, rules: Vec::new(), goal: Vec::new() };
+        let mut relaxation =
+            Self { offsets, facts: facts as usize, rules: Vec::new(), goal: Vec::new() };
         relaxation.goal = relaxation.demanded(task, &task.goal);
         for operator in task.operator_ids() {
             relaxation.add_operator(task, operator, costs.of(task, operator));
@@ -79,13 +80,21 @@ impl Relaxation {
     }
 
     fn add_operator(&mut self, task: &Task, operator: OperatorId, cost: u32) {
-        let mut effects: Vec<(&[Fact], u32)> =
-            task.effects(operator).iter().map(|effect| (task.conditions(&effect.conditions), self.number(effect.fact))).collect();
+        let mut effects: Vec<(&[Fact], u32)> = task
+            .effects(operator)
+            .iter()
+            .map(|effect| (task.conditions(&effect.conditions), self.number(effect.fact)))
+            .collect();
         effects.sort();
         for group in effects.chunk_by(|a, b| a.0 == b.0) {
             if let Some(conditions) = consistent(task.precondition(operator), group[0].0) {
                 let needs = self.demanded(task, &conditions);
-                self.add_rule(needs, group.iter().map(|&(_, fact)| fact).collect(), cost, operator.0);
+                self.add_rule(
+                    needs,
+                    group.iter().map(|&(_, fact)| fact).collect(),
+                    cost,
+                    operator.0,
+                );
             }
         }
     }
@@ -174,7 +183,11 @@ impl Exploration {
             needs.extend(&source.needs);
             need_starts.push(needs.len() as u32);
             pairs.extend(source.needs.iter().map(|&fact| (fact, rule)));
-            start.push(Progress { cost: source.cost, unsatisfied: source.needs.len() as u32, adds });
+            start.push(Progress {
+                cost: source.cost,
+                unsatisfied: source.needs.len() as u32,
+                adds,
+            });
             origins.push(source.origin);
         }
         let (user_starts, users) = by_key(&pairs, relaxation.facts);
@@ -186,7 +199,11 @@ impl Exploration {
             offsets: relaxation.offsets,
             goal: relaxation.goal,
             is_goal,
-            free: (0..).zip(&start).filter(|(_, rule)| rule.unsatisfied == 0).map(|(rule, _)| rule).collect(),
+            free: (0..)
+                .zip(&start)
+                .filter(|(_, rule)| rule.unsatisfied == 0)
+                .map(|(rule, _)| rule)
+                .collect(),
             origins,
             need_starts,
             needs,
@@ -207,7 +224,8 @@ impl Exploration {
     /// What a rule needs.
     #[inline]
     pub(super) fn needs(&self, rule: u32) -> &[u32] {
-        &self.needs[self.need_starts[rule as usize] as usize..self.need_starts[rule as usize + 1] as usize]
+        &self.needs
+            [self.need_starts[rule as usize] as usize..self.need_starts[rule as usize + 1] as usize]
     }
 
     /// Reaches facts by ascending cost until all of the goal are; returns the goal's cost, [`UNREACHED`] if there is a goal fact that cannot be reached.
@@ -237,7 +255,9 @@ impl Exploration {
                     return self.goal_cost(combine);
                 }
             }
-            for &rule in &self.users[self.user_starts[fact as usize] as usize..self.user_starts[fact as usize + 1] as usize] {
+            for &rule in &self.users[self.user_starts[fact as usize] as usize
+                ..self.user_starts[fact as usize + 1] as usize]
+            {
                 let progress = &mut self.progress[rule as usize];
                 progress.unsatisfied -= 1;
                 if combine == Combine::Sum {
@@ -245,7 +265,11 @@ impl Exploration {
                 }
                 if progress.unsatisfied == 0 {
                     // Facts come by ascending cost, so the last one has the largest.
-                    let total = if combine == Combine::Sum { progress.cost } else { progress.cost.saturating_add(cost) };
+                    let total = if combine == Combine::Sum {
+                        progress.cost
+                    } else {
+                        progress.cost.saturating_add(cost)
+                    };
                     let adds = progress.adds;
                     reach(&mut self.facts, &mut self.queue, adds, total.min(MOST_COST), rule);
                 }
@@ -283,10 +307,13 @@ fn simplify(rules: &[Rule]) -> Vec<(usize, u32)> {
         unary.extend(rule.adds.iter().map(|&fact| (fact, index)));
     }
     // Short ones first: only a shorter or equal one can dominate.
-    unary.sort_by_cached_key(|&(fact, index)| (fact, rules[index].needs.len(), rules[index].cost, index));
+    unary.sort_by_cached_key(|&(fact, index)| {
+        (fact, rules[index].needs.len(), rules[index].cost, index)
+    });
     let mut kept = Vec::new();
     for group in unary.chunk_by(|a, b| a.0 == b.0) {
-        let signatures: Vec<u64> = group.iter().map(|&(_, index)| signature(&rules[index].needs)).collect();
+        let signatures: Vec<u64> =
+            group.iter().map(|&(_, index)| signature(&rules[index].needs)).collect();
         let mut winners: Vec<usize> = Vec::new();
         let mut seen = rustc_hash::FxHashSet::default();
         for (at, &(fact, index)) in group.iter().enumerate() {
@@ -296,7 +323,9 @@ fn simplify(rules: &[Rule]) -> Vec<(usize, u32)> {
                 || group.len() <= MOST_COMPARED
                     && winners.iter().any(|&winner| {
                         let other = &rules[group[winner].1];
-                        signatures[winner] & !signatures[at] == 0 && other.cost <= rule.cost && is_subset(&other.needs, &rule.needs)
+                        signatures[winner] & !signatures[at] == 0
+                            && other.cost <= rule.cost
+                            && is_subset(&other.needs, &rule.needs)
                     });
             if !dominated {
                 winners.push(at);

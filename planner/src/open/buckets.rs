@@ -21,7 +21,12 @@ pub(super) struct Buckets<T> {
 
 impl<T> Default for Buckets<T> {
     fn default() -> Self {
-        Self { levels: Vec::new(), lowest: 0, allocated: 0, pool: Pool { blocks: Vec::new(), links: Vec::new(), free: NONE } }
+        Self {
+            levels: Vec::new(),
+            lowest: 0,
+            allocated: 0,
+            pool: Pool { blocks: Vec::new(), links: Vec::new(), free: NONE },
+        }
     }
 }
 
@@ -50,13 +55,15 @@ impl<T: Copy + Default> Buckets<T> {
     #[inline]
     pub(super) fn reach(&mut self, key: (u32, u32)) -> bool {
         let (level, bucket) = (key.0 as usize, key.1 as usize);
-        self.levels.get(level).is_some_and(|level| bucket < level.buckets.len()) || self.extend(level, bucket)
+        self.levels.get(level).is_some_and(|level| bucket < level.buckets.len())
+            || self.extend(level, bucket)
     }
 
     #[cold]
     fn extend(&mut self, level: usize, bucket: usize) -> bool {
         let more_levels = (level + 1).saturating_sub(self.levels.len());
-        let more_buckets = bucket + 1 - self.levels.get(level).map_or(0, |level| level.buckets.len());
+        let more_buckets =
+            bucket + 1 - self.levels.get(level).map_or(0, |level| level.buckets.len());
         if self.allocated + more_levels + more_buckets > MOST_BUCKETS {
             return false;
         }
@@ -73,7 +80,8 @@ impl<T: Copy + Default> Buckets<T> {
     pub(super) fn push(&mut self, key: (u32, u32), item: T, order: Order) {
         let level = &mut self.levels[key.0 as usize];
         self.lowest = self.lowest.min(key.0 as usize);
-        level.lowest = if level.len == 0 { key.1 as usize } else { level.lowest.min(key.1 as usize) };
+        level.lowest =
+            if level.len == 0 { key.1 as usize } else { level.lowest.min(key.1 as usize) };
         level.len += 1;
         let bucket = &mut level.buckets[key.1 as usize];
         if bucket.last == NONE || bucket.end == CHUNK {
@@ -123,7 +131,11 @@ impl<T: Copy + Default> Buckets<T> {
                 if bucket.end == 0 {
                     let before = self.pool.links[bucket.last as usize];
                     self.pool.release(bucket.last);
-                    *bucket = Bucket { last: before, end: if before == NONE { 0 } else { CHUNK }, ..EMPTY };
+                    *bucket = Bucket {
+                        last: before,
+                        end: if before == NONE { 0 } else { CHUNK },
+                        ..EMPTY
+                    };
                 }
                 item
             }
@@ -163,7 +175,8 @@ impl<T: Copy + Default> Pool<T> {
         if self.free == NONE {
             let first = self.links.len() as u32;
             self.blocks.push(vec![T::default(); (BLOCK * CHUNK) as usize].into_boxed_slice());
-            self.links.extend((1..=BLOCK).map(|next| if next == BLOCK { NONE } else { first + next }));
+            self.links
+                .extend((1..=BLOCK).map(|next| if next == BLOCK { NONE } else { first + next }));
             self.free = first;
         }
         let chunk = self.free;

@@ -87,10 +87,16 @@ impl<'t> Reader<'t> {
         self.text("the name of the variable")?;
         let layer: i64 = self.number("the axiom layer")?;
         let domain_size = self.number("the size of the domain")?;
-        let names = (0..domain_size).map(|_| self.text("the name of a fact").map(str::to_owned)).collect::<Result<_, _>>()?;
+        let names = (0..domain_size)
+            .map(|_| self.text("the name of a fact").map(str::to_owned))
+            .collect::<Result<_, _>>()?;
         self.keyword("end_variable")?;
         self.named.facts.push(names);
-        self.named.task.variables.push(Variable { domain_size, axiom_layer: u32::try_from(layer).ok(), default: 0 });
+        self.named.task.variables.push(Variable {
+            domain_size,
+            axiom_layer: u32::try_from(layer).ok(),
+            default: 0,
+        });
         Ok(())
     }
 
@@ -111,17 +117,27 @@ impl<'t> Reader<'t> {
         let first_effect = self.named.task.effect_pool.len() as u32;
         for _ in 0..self.number("the number of effects")? {
             let numbers = self.numbers("an effect")?;
-            let [count, rest @ ..] = numbers.as_slice() else { return Err(self.error("an effect")) };
-            let [conditions @ .., variable, before, after] = rest else { return Err(self.error("an effect")) };
+            let [count, rest @ ..] = numbers.as_slice() else {
+                return Err(self.error("an effect"));
+            };
+            let [conditions @ .., variable, before, after] = rest else {
+                return Err(self.error("an effect"));
+            };
             if conditions.len() as i64 != count * 2 {
                 return Err(self.error("two numbers for each condition of the effect"));
             }
             let conditions = self.conditions(conditions)?;
             let variable = u32::try_from(*variable).map_err(|_| self.error("a variable"))?;
             if *before != -1 {
-                precondition.push(self.fact(variable, u32::try_from(*before).map_err(|_| self.error("a value"))?)?);
+                precondition.push(
+                    self.fact(
+                        variable,
+                        u32::try_from(*before).map_err(|_| self.error("a value"))?,
+                    )?,
+                );
             }
-            let fact = self.fact(variable, u32::try_from(*after).map_err(|_| self.error("a value"))?)?;
+            let fact =
+                self.fact(variable, u32::try_from(*after).map_err(|_| self.error("a value"))?)?;
             self.named.task.effect_pool.push(Effect { conditions, fact });
         }
         let cost = self.number("the cost")?;
@@ -145,7 +161,9 @@ impl<'t> Reader<'t> {
         let mut facts = self.facts(count)?;
         facts.sort_unstable();
         let numbers = self.numbers("the head")?;
-        let &[variable, _, after] = numbers.as_slice() else { return Err(self.error("a variable and two values")) };
+        let &[variable, _, after] = numbers.as_slice() else {
+            return Err(self.error("a variable and two values"));
+        };
         let head = self.signed(variable, after)?;
         self.keyword("end_rule")?;
         let conditions = self.pool(facts);
@@ -155,7 +173,10 @@ impl<'t> Reader<'t> {
 
     /// Numbers in pairs of variable and value, as a range of the condition pool.
     fn conditions(&mut self, numbers: &[i64]) -> Result<Range<u32>, Error> {
-        let mut facts = numbers.chunks_exact(2).map(|pair| self.signed(pair[0], pair[1])).collect::<Result<Vec<_>, _>>()?;
+        let mut facts = numbers
+            .chunks_exact(2)
+            .map(|pair| self.signed(pair[0], pair[1]))
+            .collect::<Result<Vec<_>, _>>()?;
         facts.sort_unstable();
         Ok(self.pool(facts))
     }
@@ -171,7 +192,9 @@ impl<'t> Reader<'t> {
         (0..count)
             .map(|_| {
                 let numbers = self.numbers("a variable and a value")?;
-                let &[variable, value] = numbers.as_slice() else { return Err(self.error("a variable and a value")) };
+                let &[variable, value] = numbers.as_slice() else {
+                    return Err(self.error("a variable and a value"));
+                };
                 self.signed(variable, value)
             })
             .collect()
@@ -186,23 +209,37 @@ impl<'t> Reader<'t> {
 
     fn fact(&self, variable: u32, value: u32) -> Result<Fact, Error> {
         match self.named.task.variables.get(variable as usize) {
-            Some(known) if value < known.domain_size => Ok(Fact { variable: VariableId(variable), value }),
+            Some(known) if value < known.domain_size => {
+                Ok(Fact { variable: VariableId(variable), value })
+            }
             Some(known) => Err(self.error(&format!("a value below {}", known.domain_size))),
-            None => Err(self.error(&format!("a variable below {}", self.named.task.variables.len()))),
+            None => {
+                Err(self.error(&format!("a variable below {}", self.named.task.variables.len())))
+            }
         }
     }
 
-    fn repeat(&mut self, what: &str, item: impl Fn(&mut Self) -> Result<(), Error>) -> Result<(), Error> {
+    fn repeat(
+        &mut self,
+        what: &str,
+        item: impl Fn(&mut Self) -> Result<(), Error>,
+    ) -> Result<(), Error> {
         (0..self.number(what)?).try_for_each(|_: u32| item(self))
     }
 
     fn keyword(&mut self, keyword: &str) -> Result<(), Error> {
-        if self.text(keyword)? == keyword { Ok(()) } else { Err(self.error(&format!("`{keyword}`"))) }
+        if self.text(keyword)? == keyword {
+            Ok(())
+        } else {
+            Err(self.error(&format!("`{keyword}`")))
+        }
     }
 
     fn numbers(&mut self, what: &str) -> Result<Vec<i64>, Error> {
         let text = self.text(what)?;
-        text.split_ascii_whitespace().map(|word| word.parse().map_err(|_| self.error(what))).collect()
+        text.split_ascii_whitespace()
+            .map(|word| word.parse().map_err(|_| self.error(what)))
+            .collect()
     }
 
     fn number<N: FromStr>(&mut self, what: &str) -> Result<N, Error> {

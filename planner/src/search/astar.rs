@@ -34,14 +34,25 @@ struct Frontier {
 
 impl Frontier {
     fn push(&mut self, state: StateId, cost: u32, estimate: u32) {
-        self.open.push((cost.saturating_add(estimate.saturating_mul(self.weight)), estimate), state.0);
+        self.open
+            .push((cost.saturating_add(estimate.saturating_mul(self.weight)), estimate), state.0);
     }
 }
 
 /// Runs until a plan is found. States whose cost plus estimate reach that of a plan found before are left out; with a weight that is sound only
 /// for admissible heuristics, which the caller sees to.
-pub(super) fn search(space: &mut Space, heuristic: &mut dyn Heuristic, weight: u32, run: &mut Run) -> End {
-    let mut frontier = Frontier { nodes: Nodes::default(), open: Open::new(Order::Lifo), estimates: Segmented::new(0), weight };
+pub(super) fn search(
+    space: &mut Space,
+    heuristic: &mut dyn Heuristic,
+    weight: u32,
+    run: &mut Run,
+) -> End {
+    let mut frontier = Frontier {
+        nodes: Nodes::default(),
+        open: Open::new(Order::Lifo),
+        estimates: Segmented::new(0),
+        weight,
+    };
     let mut values = space.task().initial_state.clone();
     let mut child_values = values.clone();
     let mut operators: Vec<OperatorId> = Vec::new();
@@ -81,7 +92,8 @@ pub(super) fn search(space: &mut Space, heuristic: &mut dyn Heuristic, weight: u
         run.statistics.expanded += 1;
         space.applicable(&values, &mut operators);
         heuristic.enter(&values);
-        let own_estimate = if constant.is_none() { frontier.estimates.get(state.index()) } else { 0 };
+        let own_estimate =
+            if constant.is_none() { frontier.estimates.get(state.index()) } else { 0 };
         for &operator in &operators {
             run.statistics.generated += 1;
             let operator_cost = space.task().operators[operator.index()].cost;
@@ -104,13 +116,19 @@ pub(super) fn search(space: &mut Space, heuristic: &mut dyn Heuristic, weight: u
                     space.load(child, &mut child_values);
                     run.statistics.evaluated += 1;
                     let estimate = heuristic.evaluate_child(operator, &child_values);
-                    let estimate = if weight == 1 { estimate.max(own_estimate.saturating_sub(operator_cost)) } else { estimate };
+                    let estimate = if weight == 1 {
+                        estimate.max(own_estimate.saturating_sub(operator_cost))
+                    } else {
+                        estimate
+                    };
                     frontier.estimates.push(estimate);
                     estimate
                 };
                 if estimate == DEAD_END {
                     run.statistics.dead_ends += 1;
-                    frontier.nodes.set(child, Node { status: Status::DeadEnd, cost, parent: state });
+                    frontier
+                        .nodes
+                        .set(child, Node { status: Status::DeadEnd, cost, parent: state });
                 } else {
                     frontier.nodes.set(child, Node { status: Status::Open, cost, parent: state });
                     frontier.push(child, cost, estimate);

@@ -9,7 +9,12 @@ use crate::space::Space;
 
 /// How it is listed.
 pub fn profile() -> Profile {
-    Profile { name: "breadth", summary: "breadth-first: plans with the fewest steps", source: "Moore 1959", optimal: false }
+    Profile {
+        name: "breadth",
+        summary: "breadth-first: plans with the fewest steps",
+        source: "Moore 1959",
+        optimal: false,
+    }
 }
 
 /// Runs until a plan is found.

@@ -52,7 +52,10 @@ struct Entry {
 
 impl Lists {
     fn new(heuristics: usize) -> Self {
-        Self { lists: (0..2 * heuristics).map(|_| Open::new(Order::Fifo)).collect(), served: vec![0; 2 * heuristics] }
+        Self {
+            lists: (0..2 * heuristics).map(|_| Open::new(Order::Fifo)).collect(),
+            served: vec![0; 2 * heuristics],
+        }
     }
 
     fn push(&mut self, keys: &[u32], is_preferred: bool, entry: Entry) {
@@ -65,7 +68,9 @@ impl Lists {
     }
 
     fn pop(&mut self) -> Option<Entry> {
-        let list = (0..self.lists.len()).filter(|&list| !self.lists[list].is_empty()).min_by_key(|&list| (self.served[list], list))?;
+        let list = (0..self.lists.len())
+            .filter(|&list| !self.lists[list].is_empty())
+            .min_by_key(|&list| (self.served[list], list))?;
         self.served[list] += 1;
         self.lists[list].pop().map(|(_, entry)| entry)
     }
@@ -85,7 +90,9 @@ struct Ways {
 
 impl Ways {
     fn metric(&self, state: StateId) -> u32 {
-        self.metric.as_ref().map_or_else(|| self.nodes.get(state).cost, |metric| metric.get(state.index()))
+        self.metric
+            .as_ref()
+            .map_or_else(|| self.nodes.get(state).cost, |metric| metric.get(state.index()))
     }
 
     fn set(&mut self, state: StateId, node: Node, metric_cost: u32) {
@@ -101,10 +108,16 @@ impl Ways {
 }
 
 /// Runs until a plan is found that is cheaper than those before.
-pub(super) fn search(space: &mut Space, heuristics: &mut [Box<dyn Heuristic + '_>], options: Options, run: &mut Run) -> End {
+pub(super) fn search(
+    space: &mut Space,
+    heuristics: &mut [Box<dyn Heuristic + '_>],
+    options: Options,
+    run: &mut Run,
+) -> End {
     let task = space.task();
     let keeps_metric = task.uses_metric && options.costs != Costs::Metric;
-    let mut ways = Ways { nodes: Nodes::default(), metric: keeps_metric.then(|| Segmented::new(0)) };
+    let mut ways =
+        Ways { nodes: Nodes::default(), metric: keeps_metric.then(|| Segmented::new(0)) };
     let mut lists = Lists::new(heuristics.len());
     let mut values = task.initial_state.clone();
     let mut operators: Vec<OperatorId> = Vec::new();
@@ -154,22 +167,33 @@ pub(super) fn search(space: &mut Space, heuristics: &mut [Box<dyn Heuristic + '_
                     }
                 }
                 for (key, &estimate) in keys.iter_mut().zip(&estimates) {
-                    *key = options.weight.map_or(estimate, |weight| cost.saturating_add(estimate.saturating_mul(weight)));
+                    *key = options.weight.map_or(estimate, |weight| {
+                        cost.saturating_add(estimate.saturating_mul(weight))
+                    });
                 }
                 for &operator in &operators {
-                    if !run.is_too_much(u64::from(metric_cost) + u64::from(task.operators[operator.index()].cost)) {
+                    if !run.is_too_much(
+                        u64::from(metric_cost) + u64::from(task.operators[operator.index()].cost),
+                    ) {
                         let is_preferred = preferred_at[operator.index()] == state.0;
-                        lists.push(&keys, is_preferred, Entry { state: state.0, operator: operator.0 });
+                        lists.push(
+                            &keys,
+                            is_preferred,
+                            Entry { state: state.0, operator: operator.0 },
+                        );
                     }
                 }
             }
         }
         // The next state: one whose way is cheap enough and fits a node.
         loop {
-            let Some(Entry { state: parent, operator }) = lists.pop() else { return End::Exhausted };
+            let Some(Entry { state: parent, operator }) = lists.pop() else {
+                return End::Exhausted;
+            };
             let (parent, operator) = (StateId(parent), OperatorId(operator));
             let cost = ways.nodes.get(parent).cost.saturating_add(options.costs.of(task, operator));
-            let metric_cost = ways.metric(parent).saturating_add(task.operators[operator.index()].cost);
+            let metric_cost =
+                ways.metric(parent).saturating_add(task.operators[operator.index()].cost);
             if cost.max(metric_cost) > MOST_COST {
                 run.overflow = true;
                 continue;
@@ -187,7 +211,11 @@ pub(super) fn search(space: &mut Space, heuristics: &mut [Box<dyn Heuristic + '_
 }
 
 /// Fills in the estimates; whether one of them says that the state is a dead end.
-fn evaluate(heuristics: &mut [Box<dyn Heuristic + '_>], values: &[u32], estimates: &mut [u32]) -> bool {
+fn evaluate(
+    heuristics: &mut [Box<dyn Heuristic + '_>],
+    values: &[u32],
+    estimates: &mut [u32],
+) -> bool {
     for (heuristic, estimate) in heuristics.iter_mut().zip(estimates) {
         *estimate = heuristic.evaluate(values);
         if *estimate == DEAD_END {

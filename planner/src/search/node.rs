@@ -95,7 +95,10 @@ mod tests {
             nodes.set(StateId(state), node);
         }
         nodes.set(StateId(0), Node { status: Status::DeadEnd, cost: 5, parent: StateId(9) });
-        assert_eq!(nodes.get(StateId(0)), Node { status: Status::DeadEnd, cost: 5, parent: StateId(9) });
+        assert_eq!(
+            nodes.get(StateId(0)),
+            Node { status: Status::DeadEnd, cost: 5, parent: StateId(9) }
+        );
         assert_eq!([nodes.get(StateId(1)), nodes.get(StateId(2))], all[1..]);
     }
 }
