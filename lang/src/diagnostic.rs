@@ -33,9 +33,18 @@ pub mod unsupported_feature;
 pub mod wrong_operand_count;
 pub mod disjunctive_effect;
 pub mod when_in_condition;
+pub mod unstratified_axioms;
 pub mod contradictory_effect;
 pub mod uninitialised_function;
 pub mod variable_in_init;
+pub mod plan_syntax;
+pub mod plan_unknown_action;
+pub mod plan_wrong_arity;
+pub mod plan_unknown_object;
+pub mod plan_type_mismatch;
+pub mod plan_step_order;
+pub mod plan_step_fails;
+pub mod plan_misses_goal;
 pub mod dash_not_separated;
 pub mod unused_parameter;
 
@@ -70,9 +79,18 @@ pub const RULES: &[Rule] = &[
     wrong_operand_count::RULE,
     disjunctive_effect::RULE,
     when_in_condition::RULE,
+    unstratified_axioms::RULE,
     contradictory_effect::RULE,
     uninitialised_function::RULE,
     variable_in_init::RULE,
+    plan_syntax::RULE,
+    plan_unknown_action::RULE,
+    plan_wrong_arity::RULE,
+    plan_unknown_object::RULE,
+    plan_type_mismatch::RULE,
+    plan_step_order::RULE,
+    plan_step_fails::RULE,
+    plan_misses_goal::RULE,
     dash_not_separated::RULE,
     unused_parameter::RULE,
 ];

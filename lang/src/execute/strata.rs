@@ -4,7 +4,8 @@ use petgraph::algo::kosaraju_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
 use super::query::{Goal, Query};
-use crate::diagnostic::{Diagnostic, Label, Severity};
+use crate::diagnostic::Diagnostic;
+use crate::diagnostic::unstratified_axioms::unstratified_axioms;
 use crate::model::{AxiomId, Domain, Formula, NodeId, NodeKind, PredicateId};
 use crate::source::Span;
 
@@ -24,28 +25,9 @@ pub struct Unstratified {
 impl Unstratified {
     /// What to tell the author of the domain.
     pub fn diagnostic(&self, domain: &Domain) -> Diagnostic {
-        let head = &domain.predicates[self.head.index()].name;
-        let negated = &domain.predicates[self.negated.index()].name;
-        let how = if self.head == self.negated { "itself" } else { "it in turn" };
-        Diagnostic {
-            code: "E0404",
-            name: "unstratified-axioms",
-            severity: Severity::Error,
-            message: format!("`{}` is derived from its own negation", head.text),
-            primary: Label {
-                span: self.span,
-                text: format!("`{}` is negated here and depends on {how}", negated.text),
-            },
-            secondary: vec![Label {
-                span: domain.axioms[self.axiom.index()].span,
-                text: format!("in this rule for `{}`", head.text),
-            }],
-            help: Some(
-                "let each derived predicate negate only predicates that are derived without it"
-                    .to_owned(),
-            ),
-            fixes: Vec::new(),
-        }
+        let name = |id: PredicateId| domain.predicates[id.index()].name.text.as_str();
+        let rule = domain.axioms[self.axiom.index()].span;
+        unstratified_axioms(name(self.head), name(self.negated), self.span, rule)
     }
 }
 

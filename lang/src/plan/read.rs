@@ -6,8 +6,15 @@
 use rustc_hash::FxHashMap;
 
 use super::{Plan, Step};
-use crate::diagnostic::{Diagnostic, Diagnostics, Fix, Label, Severity};
+use crate::diagnostic::plan_step_order::plan_step_order;
+use crate::diagnostic::plan_syntax::plan_syntax;
+use crate::diagnostic::plan_type_mismatch::plan_type_mismatch;
+use crate::diagnostic::plan_unknown_action::plan_unknown_action;
+use crate::diagnostic::plan_unknown_object::plan_unknown_object;
+use crate::diagnostic::plan_wrong_arity::plan_wrong_arity;
+use crate::diagnostic::{Diagnostics, Fix};
 use crate::model::{ActionId, Domain, Name, ObjectId, Problem, TypeId, Variable};
+use crate::near::nearest;
 use crate::source::{SourceId, Sources, Span};
 
 /// A plan as it was read.
@@ -123,7 +130,7 @@ impl<'a> Reader<'a> {
                 Kind::Word => self.bare(),
                 Kind::Close => {
                     self.at += 1;
-                    self.report_syntax(
+                    self.report(
                         "unexpected `)`",
                         self.span(token),
                         "no step is open here",
@@ -132,7 +139,7 @@ impl<'a> Reader<'a> {
                 }
                 Kind::Duration => {
                     self.at += 1;
-                    self.report_syntax(
+                    self.report(
                         "a duration without a step",
                         self.span(token),
                         "it follows no step",
@@ -169,19 +176,10 @@ impl<'a> Reader<'a> {
         let time = self.word(token).parse::<f64>().expect("it was parsed to see that it is a time");
         self.at += 2;
         if self.peek().is_none_or(|next| next.kind != Kind::Open) {
-            self.report_syntax("a time without a step", span, "no `(` follows", None);
+            self.report("a time without a step", span, "no `(` follows", None);
         }
         if let Some((last, before)) = self.last_time.filter(|&(last, _)| time < last) {
-            self.diagnostics.push(Diagnostic {
-                code: "E0715",
-                name: "plan-step-order",
-                severity: Severity::Error,
-                message: "this step comes before the one above it".to_owned(),
-                primary: Label { span, text: format!("at time {time}") },
-                secondary: vec![Label { span: before, text: format!("at time {last}") }],
-                help: Some("write the steps in the order of their times".to_owned()),
-                fixes: Vec::new(),
-            });
+            self.diagnostics.push(plan_step_order(time, span, last, before));
         }
         self.last_time = Some((time, span));
     }
@@ -203,7 +201,7 @@ impl<'a> Reader<'a> {
         let last = closed.unwrap_or(*words.last().expect("it begins with a word"));
         let span = self.span(first).to(self.span(last));
         let text = self.text[first.start..last.end].trim_end_matches(')');
-        self.report_syntax(
+        self.report(
             "a step stands in parentheses",
             span,
             "no `(` before it",
@@ -226,19 +224,14 @@ impl<'a> Reader<'a> {
         } else {
             let span = self.span(open);
             let after = Span::new(self.source, last.end as u32, last.end as u32);
-            self.report_syntax("a step that is not closed", span, "this `(` has no `)`", None);
+            self.report("a step that is not closed", span, "this `(` has no `)`", None);
             let fix = Fix { title: "add the `)`".to_owned(), edits: vec![(after, ")".to_owned())] };
             self.diagnostics.list.last_mut().expect("it was pushed above").fixes.push(fix);
         }
         self.skip_duration();
         let span = self.span(open).to(self.span(closed.unwrap_or(last)));
         let Some((&name, arguments)) = words.split_first() else {
-            self.report_syntax(
-                "a step without a name",
-                span,
-                "an action's name belongs here",
-                None,
-            );
+            self.report("a step without a name", span, "an action's name belongs here", None);
             return;
         };
         let named = |token: Token| (self.word(token), self.span(token));
@@ -254,26 +247,8 @@ impl<'a> Reader<'a> {
         self.at += usize::from(self.peek().is_some_and(|token| token.kind == Kind::Duration));
     }
 
-    fn report_syntax(
-        &mut self,
-        message: &str,
-        span: Span,
-        label: &str,
-        fix: Option<(&str, String)>,
-    ) {
-        self.diagnostics.push(Diagnostic {
-            code: "E0710",
-            name: "plan-syntax",
-            severity: Severity::Error,
-            message: message.to_owned(),
-            primary: Label { span, text: label.to_owned() },
-            secondary: Vec::new(),
-            help: Some("a plan file has one `(action object …)` for each step".to_owned()),
-            fixes: fix
-                .map(|(title, text)| Fix { title: title.to_owned(), edits: vec![(span, text)] })
-                .into_iter()
-                .collect(),
-        });
+    fn report(&mut self, message: &str, span: Span, label: &str, fix: Option<(&str, String)>) {
+        self.diagnostics.push(plan_syntax(message, span, label, fix));
     }
 }
 
@@ -308,16 +283,16 @@ impl<'a> Resolver<'a> {
         out: &mut Diagnostics,
     ) -> Option<Step> {
         let Some(&action) = self.actions.get(&name.to_lowercase()) else {
-            let names = self.domain.actions.iter().map(|action| &action.name);
-            out.push(unknown(("E0711", "plan-unknown-action"), "action", (name, at), names));
+            let names = self.domain.actions.iter().map(|action| action.name.text.as_str());
+            out.push(plan_unknown_action(name, at, nearest(name, names)));
             return None;
         };
         let mut arguments = Some(Vec::with_capacity(words.len()));
         for &(name, at) in words {
             let object = self.objects.get(&name.to_lowercase()).copied();
             if object.is_none() {
-                let names = self.problem.objects.iter().map(|object| &object.name);
-                out.push(unknown(("E0713", "plan-unknown-object"), "object", (name, at), names));
+                let names = self.problem.objects.iter().map(|object| object.name.text.as_str());
+                out.push(plan_unknown_object(name, at, nearest(name, names)));
             }
             arguments = arguments.zip(object).map(|(mut arguments, object)| {
                 arguments.push(object);
@@ -335,18 +310,9 @@ impl<'a> Resolver<'a> {
         if parameters.len() != words.len() {
             let each: Vec<_> =
                 parameters.iter().map(|parameter| self.parameter(parameter)).collect();
-            out.push(error(
-                ("E0712", "plan-wrong-arity"),
-                format!(
-                    "`{}` takes {}, not {}",
-                    action.name.text,
-                    arguments(parameters.len()),
-                    words.len()
-                ),
-                Label { span, text: format!("{} here", arguments(words.len())) },
-                vec![Label { span: action.name.span, text: "declared here".to_owned() }],
-                (!each.is_empty()).then(|| format!("its parameters are `{}`", each.join(" "))),
-            ));
+            let counts = (parameters.len(), words.len());
+            let name = &action.name;
+            out.push(plan_wrong_arity(&name.text, counts, &each.join(" "), span, name.span));
             return false;
         }
         let mut fits = true;
@@ -356,18 +322,11 @@ impl<'a> Resolver<'a> {
                 continue;
             }
             fits = false;
-            out.push(error(
-                ("E0714", "plan-type-mismatch"),
-                format!("`{}` is not of type `{}`", object.name.text, self.types(&parameter.types)),
-                Label {
-                    span: at,
-                    text: format!("this is of type `{}`", self.types(&object.types)),
-                },
-                vec![Label {
-                    span: parameter.name.span,
-                    text: format!("`{}` is declared here", parameter.name.text),
-                }],
-                None,
+            out.push(plan_type_mismatch(
+                (&object.name.text, &self.types(&object.types)),
+                (&action.name.text, &parameter.name.text, &self.types(&parameter.types)),
+                at,
+                parameter.name.span,
             ));
         }
         fits
@@ -382,62 +341,4 @@ impl<'a> Resolver<'a> {
     fn parameter(&self, parameter: &Variable) -> String {
         format!("{} - {}", parameter.name.text, self.types(&parameter.types).replace('`', ""))
     }
-}
-
-fn arguments(count: usize) -> String {
-    match count {
-        0 => "no arguments".to_owned(),
-        1 => "1 argument".to_owned(),
-        _ => format!("{count} arguments"),
-    }
-}
-
-fn error(
-    (code, name): (&'static str, &'static str),
-    message: String,
-    primary: Label,
-    secondary: Vec<Label>,
-    help: Option<String>,
-) -> Diagnostic {
-    Diagnostic {
-        code,
-        name,
-        severity: Severity::Error,
-        message,
-        primary,
-        secondary,
-        help,
-        fixes: Vec::new(),
-    }
-}
-
-fn unknown<'n>(
-    kind: (&'static str, &'static str),
-    what: &str,
-    (word, span): Word<'_>,
-    names: impl Iterator<Item = &'n Name>,
-) -> Diagnostic {
-    let label = Label { span, text: format!("no {what} has this name") };
-    let mut diagnostic = error(kind, format!("unknown {what} `{word}`"), label, Vec::new(), None);
-    if let Some(name) = nearest(word, names) {
-        diagnostic.help = Some(format!("did you mean `{}`?", name.text));
-        diagnostic.secondary.push(Label { span: name.span, text: "declared here".to_owned() });
-        let text = name.text.to_lowercase();
-        diagnostic
-            .fixes
-            .push(Fix { title: format!("replace with `{text}`"), edits: vec![(span, text)] });
-    }
-    diagnostic
-}
-
-/// The name that `word` is most likely meant to be: at most a third of it differs; the first of equally near ones.
-fn nearest<'n>(word: &str, names: impl Iterator<Item = &'n Name>) -> Option<&'n Name> {
-    let word = word.to_lowercase();
-    let limit = (word.chars().count() / 3).max(1);
-    names
-        .filter(|name| name.text.len().abs_diff(word.len()) <= limit * 4)
-        .map(|name| (strsim::osa_distance(&word, &name.text.to_lowercase()), name))
-        .filter(|&(distance, _)| distance <= limit)
-        .min_by_key(|&(distance, _)| distance)
-        .map(|(_, name)| name)
 }

@@ -69,7 +69,13 @@ pub(super) fn search(run: &Run<'_>, place: Place, parts: &[Part]) -> Repair {
     // Facts alone do not mend an equality, and of an alternative's parts it is not ours to choose.
     let plain =
         parts.iter().all(|part| matches!(part.what, What::Missing { .. } | What::Forbidden { .. }));
-    if plain && !search.needs.is_empty() { Repair::Set(search.needs) } else { Repair::None }
+    let basic =
+        |(fact, _): &(Fact, bool)| !executor.domain().predicates[fact.predicate.index()].derived;
+    if plain && !search.needs.is_empty() && search.needs.iter().all(basic) {
+        Repair::Set(search.needs)
+    } else {
+        Repair::None
+    }
 }
 
 /// The facts that `parts` need, and the steps that stand in their way.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::explain::MOST;
 use super::words::{Words, list};
 use super::{Cause, Failure, Part, Place, Repair, Success, Verdict, What};
-use crate::diagnostic::{Diagnostic, Label, Severity};
+use crate::diagnostic::{Diagnostic, Label, plan_misses_goal, plan_step_fails};
 use crate::execute::Misfit;
 use crate::model::{Domain, Problem};
 use crate::plan::{self, Plan};
@@ -70,25 +70,20 @@ impl Failure {
             }
         };
         let primary = labels.remove(0);
-        let (code, name) = match self.place {
+        let rule = match self.place {
             Place::Step(at) => {
                 if let Some(&span) = spans.get(at) {
                     labels.push(Label { span, text: format!("step {}", at + 1) });
                 }
-                ("E0720", "plan-step-fails")
+                plan_step_fails::RULE
             }
-            Place::Goal => ("E0721", "plan-misses-goal"),
+            Place::Goal => plan_misses_goal::RULE,
         };
-        Diagnostic {
-            code,
-            name,
-            severity: Severity::Error,
-            message: format!("the plan fails {}", teller.headline(self)),
-            primary,
-            secondary: labels,
-            help: teller.repair(self),
-            fixes: Vec::new(),
-        }
+        let message = format!("the plan fails {}", teller.headline(self));
+        let mut diagnostic = rule.at(primary.span, message, primary.text);
+        diagnostic.secondary = labels;
+        diagnostic.help = teller.repair(self);
+        diagnostic
     }
 }
 
@@ -175,7 +170,7 @@ impl Teller<'_> {
                     Some(at) if derived => format!("a rule derives it since {}", self.step(*at)),
                     Some(at) => format!("{} added it", self.step(*at)),
                     None if derived => "a rule derives it".to_owned(),
-                    None => "it holds since the beginning".to_owned(),
+                    None => "it held from the beginning".to_owned(),
                 };
                 let must = if alternative { "" } else { " and must be false" };
                 format!("{} is true{must}: {cause}", self.words.fact(fact))

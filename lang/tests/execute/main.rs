@@ -1,8 +1,12 @@
 //! `lang::execute` and `lang::validate` against a second interpreter, which grounds everything and is too simple to be wrong in the same way.
 
 mod depth;
+mod meaning;
 mod naive;
+mod plans;
 mod random;
+mod stories;
+mod text;
 
 use lang::execute::Executor;
 use lang::model::Fact;
