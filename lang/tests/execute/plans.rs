@@ -21,12 +21,12 @@ fn fixture() -> Fixture {
 fn read(text: &str) -> String {
     let mut fixture = fixture();
     let (listing, notes) = fixture.plan(text);
-    let mut said = String::new();
-    for (step, &span) in listing.plan.steps.iter().zip(&listing.spans) {
+    let steps = listing.plan.steps.iter().zip(&listing.spans);
+    let lines = steps.map(|(step, &span)| {
         let line = plan::line(step, &fixture.domain, &fixture.problem);
-        said += &format!("{} {line}\n", fixture.place(span));
-    }
-    said + &notes
+        format!("{} {line}\n", fixture.place(span))
+    });
+    lines.collect::<String>() + &notes
 }
 
 #[test]
