@@ -42,7 +42,12 @@ struct Report<'d> {
     declared: Flags,
     /// The requirements that have been reported as missing.
     missing: Flags,
+    /// How many more names may be compared with a misspelt one.
+    comparisons: usize,
 }
+
+/// How many names are compared with misspelt ones in all, so that a text full of mistakes is read fast too.
+const COMPARISONS: usize = 200_000;
 
 impl<'d> Report<'d> {
     fn new(diagnostics: &'d mut Diagnostics, declared: Flags) -> Self {
@@ -52,6 +57,7 @@ impl<'d> Report<'d> {
             features: BTreeSet::new(),
             declared,
             missing: Flags::default(),
+            comparisons: COMPARISONS,
         }
     }
 
@@ -62,6 +68,12 @@ impl<'d> Report<'d> {
     /// Whether this is the first mistake of this kind about this name.
     fn first(&mut self, rule: &Rule, name: &str) -> bool {
         self.said.insert((rule.code, name.to_ascii_lowercase()))
+    }
+
+    /// The name that was probably meant.
+    fn nearest<'a>(&mut self, name: &str, index: &Index<'a>) -> Option<&'a str> {
+        self.comparisons = self.comparisons.checked_sub(index.len())?;
+        index.nearest(name)
     }
 
     /// Says once for each feature that it is not planned yet.

@@ -14,6 +14,9 @@ use crate::source::{SourceId, Sources, Span};
 /// Lines longer than this many bytes are cut around what is marked.
 const LONG: usize = 160;
 
+/// Of more diagnostics than this, only so many are shown in full: nobody reads them all.
+const SHOWN: usize = 100;
+
 /// Marked lines are shown in one piece if they lie within this many lines.
 const NEAR: usize = 200;
 
@@ -21,8 +24,11 @@ const NEAR: usize = 200;
 pub fn full(diagnostics: &Diagnostics, sources: &Sources, color: bool) -> String {
     let renderer = if color { Renderer::styled() } else { Renderer::plain() };
     let mut lines = Lines::default();
-    let blocks: Vec<String> =
-        diagnostics.list.iter().map(|one| block(one, sources, &mut lines, &renderer)).collect();
+    let shown = diagnostics.list.iter().take(SHOWN);
+    let mut blocks: Vec<String> = shown.map(|one| block(one, sources, &mut lines, &renderer)).collect();
+    if diagnostics.list.len() > SHOWN {
+        blocks.push(format!("… and {} more like these", diagnostics.list.len() - SHOWN));
+    }
     let mut out = blocks.join("\n\n");
     if !out.is_empty() {
         out.push('\n');
@@ -235,6 +241,8 @@ fn pieces<'a>(diagnostic: &'a Diagnostic, sources: &Sources, lines: &mut Lines) 
 #[derive(Default)]
 struct Lines {
     starts: BTreeMap<SourceId, Vec<u32>>,
+    /// The last byte whose column was asked for, its line and the column: the next is mostly a little further on.
+    last: (SourceId, usize, usize, usize),
 }
 
 impl Lines {
@@ -265,7 +273,14 @@ impl Lines {
         let row = self.row(sources, source, byte);
         let start = self.of(sources, source)[row] as usize;
         let text = &sources.get(source).text;
-        let before = text.get(start..byte as usize).unwrap_or("");
-        (row + 1, before.chars().filter(|&character| character != '\u{feff}').count() + 1)
+        let byte = byte as usize;
+        let (from, before) = match self.last {
+            (last, line, at, column) if last == source && line == row && start <= at && at <= byte => (at, column),
+            _ => (start, 0),
+        };
+        let between = text.get(from..byte).unwrap_or("");
+        let column = before + between.chars().filter(|&character| character != '\u{feff}').count();
+        self.last = (source, row, byte, column);
+        (row + 1, column + 1)
     }
 }

@@ -129,7 +129,7 @@ pub(super) fn resolve(
         }
         unknown = true;
         if report.first(&unknown_type::RULE, spelling.text) {
-            let near = index.nearest(spelling.text);
+            let near = report.nearest(spelling.text, index);
             report.push(unknown_type::unknown_type(spelling.text, spelling.span, place, near));
         }
     }

@@ -44,25 +44,17 @@ impl<'a> Index<'a> {
     }
 
     /// The name that is nearest to a misspelt one; of several the one with the least id.
-    ///
-    /// Large tables are not searched: with thousands of objects some name is always near.
     pub(super) fn nearest(&self, name: &str) -> Option<&'a str> {
-        if self.table.len() > SEARCHED {
-            return None;
-        }
         let mut candidates: Vec<(&'a str, u32)> = self.table.iter().copied().collect();
         candidates.sort_unstable_by_key(|&(_, id)| id);
         near::nearest(name, candidates.into_iter().map(|(candidate, _)| candidate))
     }
 
-    /// Whether there are no names.
-    pub(super) fn is_empty(&self) -> bool {
-        self.table.is_empty()
+    /// How many names there are.
+    pub(super) fn len(&self) -> usize {
+        self.table.len()
     }
 }
-
-/// How many names are compared at most.
-const SEARCHED: usize = 5000;
 
 /// The Fowler–Noll–Vo hash of the name in lower case, with a final mix for the upper bits that the table looks at.
 fn hash(name: &str) -> u64 {

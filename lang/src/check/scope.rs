@@ -104,7 +104,7 @@ impl<'a> Bindings<'a> {
         self.unsure = true;
         let key = format!("{} in {}", spelling.text, self.owner);
         if report.first(&unknown_variable::RULE, &key) {
-            let near = self.visible.nearest(spelling.text);
+            let near = report.nearest(spelling.text, &self.visible);
             let variables = self.scope.variables.iter().take(SHOWN);
             let scope: Vec<String> = variables
                 .map(|variable| {
@@ -310,7 +310,7 @@ pub(super) fn predicate(
             ));
         }
     } else if report.first(&unknown_predicate::RULE, spelling.text) {
-        let near = world.names.predicates.nearest(spelling.text);
+        let near = report.nearest(spelling.text, &world.names.predicates);
         report.push(unknown_predicate::unknown_predicate(spelling.text, spelling.span, near));
     }
     None
@@ -326,8 +326,8 @@ pub(super) fn function(
         return Some(FunctionId(id));
     }
     if report.first(&unknown_function::RULE, spelling.text) {
-        let near = world.names.functions.nearest(spelling.text);
-        let none = world.names.functions.is_empty();
+        let near = report.nearest(spelling.text, &world.names.functions);
+        let none = world.names.functions.len() == 0;
         report.push(unknown_function::unknown_function(spelling.text, spelling.span, none, near));
     }
     None
@@ -343,7 +343,7 @@ pub(super) fn object(
         return Some(ObjectId(id));
     }
     if report.first(&unknown_object::RULE, spelling.text) {
-        let near = world.names.objects.nearest(spelling.text);
+        let near = report.nearest(spelling.text, &world.names.objects);
         report.push(unknown_object::unknown_object(
             spelling.text,
             spelling.span,

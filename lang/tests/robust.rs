@@ -1,0 +1,145 @@
+//! No text makes the reader panic, overflow the stack or take long; and the tree keeps every byte.
+
+use std::fmt::Write;
+use std::time::{Duration, Instant};
+
+use lang::diagnostic::Diagnostics;
+use lang::model::{Domain, Problem};
+use lang::source::{SourceId, Sources};
+use lang::{render, tree};
+use proptest::prelude::*;
+
+const DOMAIN: &str = include_str!("fixtures/domain.pddl");
+const PROBLEM: &str = include_str!("fixtures/problem.pddl");
+
+/// Reads both, renders what is said and returns the models.
+fn read(domain: &str, problem: &str) -> (Domain, Problem, Diagnostics) {
+    let mut sources = Sources::default();
+    let domain = sources.add("domain.pddl", domain);
+    let problem = sources.add("problem.pddl", problem);
+    lang::detect(&sources, domain);
+    lang::detect(&sources, problem);
+    let (domain, mut diagnostics) = lang::read_domain(&sources, domain);
+    let (problem, more) = lang::read_problem(&sources, problem, &domain);
+    diagnostics.append(more);
+    render::full(&diagnostics, &sources, true);
+    render::concise(&diagnostics, &sources);
+    (domain, problem, diagnostics)
+}
+
+/// Runs on a stack so small that recursion on the depth of the text could not go unnoticed.
+fn on_small_stack(work: impl FnOnce() + Send + 'static) {
+    let thread = std::thread::Builder::new().stack_size(512 * 1024).spawn(work).expect("a thread can be started");
+    thread.join().expect("the work neither panics nor overflows its stack");
+}
+
+#[test]
+fn the_fixtures_are_clean() {
+    let (_, _, diagnostics) = read(DOMAIN, PROBLEM);
+    assert_eq!(diagnostics.list, []);
+}
+
+#[test]
+fn every_prefix_is_read() {
+    for end in (0..=DOMAIN.len()).filter(|&end| DOMAIN.is_char_boundary(end)) {
+        read(&DOMAIN[..end], PROBLEM);
+    }
+    for end in (0..=PROBLEM.len()).filter(|&end| PROBLEM.is_char_boundary(end)) {
+        read(DOMAIN, &PROBLEM[..end]);
+    }
+}
+
+#[test]
+fn every_missing_piece_is_read() {
+    for (text, other, is_domain) in [(DOMAIN, PROBLEM, true), (PROBLEM, DOMAIN, false)] {
+        for start in (0..text.len()).step_by(3) {
+            for length in [1, 7] {
+                let end = (start + length).min(text.len());
+                if !text.is_char_boundary(start) || !text.is_char_boundary(end) {
+                    continue;
+                }
+                let cut = format!("{}{}", &text[..start], &text[end..]);
+                if is_domain { read(&cut, other) } else { read(other, &cut) };
+            }
+        }
+    }
+}
+
+/// A domain whose one action has this precondition and this effect.
+fn domain_with(precondition: &str, effect: &str) -> String {
+    format!(
+        "(define (domain deep) (:requirements :adl) (:predicates (p) (q ?x))\n(:action a :parameters () :precondition {precondition} :effect {effect}))"
+    )
+}
+
+#[test]
+fn deep_nesting_is_read_in_linear_time() {
+    const DEPTH: usize = 100_000;
+    on_small_stack(|| {
+        let start = Instant::now();
+        let nest = |open: &str, core: &str| format!("{}{core}{}", open.repeat(DEPTH), ")".repeat(DEPTH));
+        for open in ["(and ", "(or ", "(not ", "(imply (p) ", "(forall (?x) ", "(exists (?x - object) ", "(when (p) ", "(", "(q "] {
+            let (domain, _, _) = read(&domain_with(&nest(open, "(p)"), "(p)"), PROBLEM);
+            assert_eq!(domain.actions.len(), 1, "{open}");
+            let (domain, _, _) = read(&domain_with("(p)", &nest(open, "(p)")), PROBLEM);
+            assert_eq!(domain.actions.len(), 1, "{open}");
+            let problem = format!("(define (problem x) (:domain deep) (:init {}) (:goal {}))", nest(open, "(p)"), nest(open, "(p)"));
+            read(&domain_with("(p)", "(p)"), &problem);
+        }
+        read(&"(".repeat(DEPTH), &")".repeat(DEPTH));
+        read(&"(define (domain d) (:action ".repeat(DEPTH / 10), &"(:init".repeat(DEPTH));
+        let time = start.elapsed();
+        assert!(time < Duration::from_secs(60), "it took {time:?}");
+    });
+}
+
+#[test]
+fn many_mistakes_take_linear_time() {
+    let mut problem = "(define (problem many) (:domain kitchen) (:objects".to_owned();
+    (0..4000).for_each(|n| write!(problem, " cup-number-{n} - cup").expect("a string takes all"));
+    problem.push_str(") (:init");
+    (0..4000).for_each(|n| write!(problem, "\n(in kup-number-{n} table)").expect("a string takes all"));
+    problem.push_str(") (:goal (and)))");
+    let start = Instant::now();
+    let (_, _, diagnostics) = read(DOMAIN, &problem);
+    let time = start.elapsed();
+    assert!(diagnostics.list.len() >= 4000, "each unknown object is a mistake of its own");
+    assert!(time < Duration::from_secs(30), "it took {time:?}");
+}
+
+/// Text that looks like PDDL, or not at all.
+fn any_text() -> impl Strategy<Value = String> {
+    let pieces = prop_oneof![
+        8 => prop::sample::select(vec![
+            "(", ")", "(", ")", " ", "\n", "\r\n", "; a comment\n", ";@ (:causal)\n", "define", "domain", "problem", ":init", "(:goal", "(:action",
+            "(:predicates", ":parameters", ":precondition", ":effect", "and", "not", "?x", "?", "-", "-t", "either", "=", "5", "1e3",
+            "\u{feff}", "\u{a0}", "–", "é", "(:types", "(:objects", "(:private", "increase", "forall", "when", "at", "(:metric minimize",
+        ]).prop_map(str::to_owned),
+        1 => any::<String>(),
+    ];
+    prop::collection::vec(pieces, 0..60).prop_map(|pieces| pieces.concat())
+}
+
+proptest! {
+    #[test]
+    fn the_tree_keeps_every_byte(text in any_text()) {
+        let mut diagnostics = Diagnostics::default();
+        let tree = tree::parse(SourceId(0), &text, &mut diagnostics);
+        prop_assert_eq!(tree.text(), text);
+    }
+
+    #[test]
+    fn any_text_is_read(start in 0..DOMAIN.len(), text in any_text(), swap: bool) {
+        let spliced = |whole: &str| {
+            let at = (0..=start.min(whole.len())).rev().find(|&at| whole.is_char_boundary(at)).unwrap_or(0);
+            format!("{}{text}{}", &whole[..at], &whole[at..])
+        };
+        if swap { read(&text, &spliced(PROBLEM)) } else { read(&spliced(DOMAIN), &text) };
+    }
+
+    #[test]
+    fn any_bytes_are_read(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        let text = String::from_utf8_lossy(&bytes);
+        read(&text, &text);
+    }
+}
