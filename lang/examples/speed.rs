@@ -11,7 +11,8 @@ const SIZE: usize = 10_000_000;
 
 /// Many ground actions, as the compiled competition domains have them.
 fn domain() -> String {
-    let mut text = "(define (domain big)\n  (:requirements :strips :typing)\n  (:types place)\n".to_owned();
+    let mut text =
+        "(define (domain big)\n  (:requirements :strips :typing)\n  (:types place)\n".to_owned();
     text.push_str("  (:constants");
     (0..1000).for_each(|n| write!(text, " place-{n}").expect("a string takes all"));
     text.push_str(" - place)\n  (:predicates (at ?p - place) (done ?p - place)");
@@ -40,7 +41,8 @@ fn problem() -> String {
     let mut n: usize = 0;
     while text.len() < SIZE {
         let place = n.wrapping_mul(48_271) % 100_000;
-        write!(text, " (at object-{place}) (done object-{})", n % 100_000).expect("a string takes all");
+        write!(text, " (at object-{place}) (done object-{})", n % 100_000)
+            .expect("a string takes all");
         n += 1;
     }
     text.push_str(")\n  (:goal (and (at object-1))))\n");

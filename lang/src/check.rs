@@ -17,8 +17,8 @@ use hashbrown::HashSet;
 
 use crate::ast::{self, Feature, Unread};
 use crate::diagnostic::{
-    Diagnostic, Diagnostics, Rule, missing_requirement, unexpected_item, unknown_predicate,
-    unsupported_feature,
+    Diagnostic, Diagnostics, Rule, agent_without_multi_agent, missing_requirement, unexpected_item,
+    unknown_predicate, unsupported_feature,
 };
 use crate::model::{self, Object, TypeId, Variable};
 use crate::near::nearest;
@@ -42,6 +42,8 @@ struct Report<'d> {
     declared: Flags,
     /// The requirements that have been reported as missing.
     missing: Flags,
+    /// Whether parts that are not read may declare names, so that nothing can be said about unknown ones.
+    blind: bool,
     /// How many more names may be compared with a misspelt one.
     comparisons: usize,
 }
@@ -57,6 +59,7 @@ impl<'d> Report<'d> {
             features: BTreeSet::new(),
             declared,
             missing: Flags::default(),
+            blind: false,
             comparisons: COMPARISONS,
         }
     }
@@ -67,7 +70,7 @@ impl<'d> Report<'d> {
 
     /// Whether this is the first mistake of this kind about this name.
     fn first(&mut self, rule: &Rule, name: &str) -> bool {
-        self.said.insert((rule.code, name.to_ascii_lowercase()))
+        !self.blind && self.said.insert((rule.code, name.to_ascii_lowercase()))
     }
 
     /// The name that was probably meant.
@@ -78,6 +81,15 @@ impl<'d> Report<'d> {
 
     /// Says once for each feature that it is not planned yet.
     fn unsupported(&mut self, unread: &Unread<'_>) {
+        if unread.keyword.is(":agent") && !self.declared.agents() {
+            if self.said.insert((agent_without_multi_agent::RULE.code, String::new())) {
+                self.push(agent_without_multi_agent::agent_without_multi_agent(
+                    unread.keyword.span,
+                ));
+            }
+            return;
+        }
+        self.blind |= unread.keyword.is(":private");
         if self.features.insert(unread.feature) {
             self.push(unsupported_feature::unsupported_feature(
                 unread.feature.describe(),
@@ -112,6 +124,8 @@ struct Names<'a> {
     types: Index<'a>,
     predicates: Index<'a>,
     functions: Index<'a>,
+    /// Whether some function may have objects as values.
+    object_functions: bool,
     objects: Index<'a>,
 }
 
@@ -155,7 +169,7 @@ fn describe_parameters(table: &[model::Type], parameters: &[Variable]) -> String
 /// Says what is wrong with a formula that could not be read: mostly that it is not supported.
 fn unread(world: &World<'_, '_>, unread: &Unread<'_>, report: &mut Report<'_>) {
     if unread.feature == Feature::ObjectFluents
-        && world.domain.functions.is_empty()
+        && !world.names.object_functions
         && unread.keyword.text != "="
     {
         let words = ["and", "or", "not", "imply", "forall", "exists", "when"];

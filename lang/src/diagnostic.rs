@@ -10,12 +10,14 @@ pub mod not_a_pddl_file;
 pub mod unknown_section;
 pub mod unknown_field;
 pub mod invalid_character;
+pub mod dash_not_separated;
 pub mod several_formulas;
 pub mod duplicate_field;
 pub mod connective_in_init;
 pub mod unexpected_item;
 pub mod not_utf8;
 pub mod unknown_predicate;
+pub mod unused_parameter;
 pub mod unknown_variable;
 pub mod unknown_object;
 pub mod duplicate_definition;
@@ -31,12 +33,13 @@ pub mod unknown_requirement;
 pub mod missing_requirement;
 pub mod unsupported_feature;
 pub mod wrong_operand_count;
+pub mod contradictory_effect;
 pub mod disjunctive_effect;
 pub mod when_in_condition;
 pub mod unstratified_axioms;
-pub mod contradictory_effect;
 pub mod uninitialised_function;
 pub mod variable_in_init;
+pub mod agent_without_multi_agent;
 pub mod plan_syntax;
 pub mod plan_unknown_action;
 pub mod plan_wrong_arity;
@@ -45,10 +48,8 @@ pub mod plan_type_mismatch;
 pub mod plan_step_order;
 pub mod plan_step_fails;
 pub mod plan_misses_goal;
-pub mod dash_not_separated;
-pub mod unused_parameter;
 
-/// All kinds, in the order of their blocks.
+/// All kinds, in the order of their numbers.
 pub const RULES: &[Rule] = &[
     unclosed_paren::RULE,
     unexpected_close_paren::RULE,
@@ -56,12 +57,14 @@ pub const RULES: &[Rule] = &[
     unknown_section::RULE,
     unknown_field::RULE,
     invalid_character::RULE,
+    dash_not_separated::RULE,
     several_formulas::RULE,
     duplicate_field::RULE,
     connective_in_init::RULE,
     unexpected_item::RULE,
     not_utf8::RULE,
     unknown_predicate::RULE,
+    unused_parameter::RULE,
     unknown_variable::RULE,
     unknown_object::RULE,
     duplicate_definition::RULE,
@@ -77,12 +80,13 @@ pub const RULES: &[Rule] = &[
     missing_requirement::RULE,
     unsupported_feature::RULE,
     wrong_operand_count::RULE,
+    contradictory_effect::RULE,
     disjunctive_effect::RULE,
     when_in_condition::RULE,
     unstratified_axioms::RULE,
-    contradictory_effect::RULE,
     uninitialised_function::RULE,
     variable_in_init::RULE,
+    agent_without_multi_agent::RULE,
     plan_syntax::RULE,
     plan_unknown_action::RULE,
     plan_wrong_arity::RULE,
@@ -91,9 +95,8 @@ pub const RULES: &[Rule] = &[
     plan_step_order::RULE,
     plan_step_fails::RULE,
     plan_misses_goal::RULE,
-    dash_not_separated::RULE,
-    unused_parameter::RULE,
 ];
+
 /// One kind of mistake: its code, its name and the page that explains it.
 #[derive(Debug, Clone, Copy)]
 pub struct Rule {

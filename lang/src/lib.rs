@@ -15,6 +15,7 @@ pub mod model;
 pub mod plan;
 pub mod execute;
 pub mod validate;
+pub mod print;
 pub mod render;
 
 pub use diagnostic::explain;

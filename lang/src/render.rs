@@ -25,7 +25,8 @@ pub fn full(diagnostics: &Diagnostics, sources: &Sources, color: bool) -> String
     let renderer = if color { Renderer::styled() } else { Renderer::plain() };
     let mut lines = Lines::default();
     let shown = diagnostics.list.iter().take(SHOWN);
-    let mut blocks: Vec<String> = shown.map(|one| block(one, sources, &mut lines, &renderer)).collect();
+    let mut blocks: Vec<String> =
+        shown.map(|one| block(one, sources, &mut lines, &renderer)).collect();
     if diagnostics.list.len() > SHOWN {
         blocks.push(format!("… and {} more like these", diagnostics.list.len() - SHOWN));
     }
@@ -275,7 +276,11 @@ impl Lines {
         let text = &sources.get(source).text;
         let byte = byte as usize;
         let (from, before) = match self.last {
-            (last, line, at, column) if last == source && line == row && start <= at && at <= byte => (at, column),
+            (last, line, at, column)
+                if last == source && line == row && start <= at && at <= byte =>
+            {
+                (at, column)
+            }
             _ => (start, 0),
         };
         let between = text.get(from..byte).unwrap_or("");

@@ -17,6 +17,8 @@ pub use problem::problem;
 struct Reader<'a, 't> {
     tree: &'t Tree<'a>,
     diagnostics: &'t mut Diagnostics,
+    /// Whether the last thing in the definition was no section, so that what follows it is not reported again.
+    lost: bool,
 }
 
 impl<'a> Reader<'a, '_> {
@@ -78,14 +80,15 @@ impl<'a> Reader<'a, '_> {
         };
         if !self.head(first).is_some_and(|head| head.is("define")) {
             let span = self.opening(first);
-            let diagnostic = not_a_pddl_file::not_a_pddl_file(
-                span,
-                "this is not a PDDL file",
-                "expected `(define`",
-                example,
-            );
+            let message = "this is not a PDDL file";
+            let diagnostic =
+                not_a_pddl_file::not_a_pddl_file(span, message, "expected `(define`", example);
+            let titled = |child| self.head(child).is_some_and(|head| head.is(whole));
+            let nearly = self.tree.children(first).take(2).any(titled);
             self.diagnostics.push(diagnostic);
-            return nothing;
+            if !nearly {
+                return nothing;
+            }
         }
         if let Some(next) = roots.next() {
             let span = self.opening(next);
@@ -99,7 +102,9 @@ impl<'a> Reader<'a, '_> {
             );
             self.diagnostics.push(diagnostic);
         }
-        let mut children = self.tree.children(first).skip(1).peekable();
+        let words =
+            self.tree.children(first).take_while(|&child| !self.tree.is_list(child)).count();
+        let mut children = self.tree.children(first).skip(words).peekable();
         let title = children.next_if(|&child| {
             self.tree.is_list(child)
                 && !self.head(child).is_some_and(|head| head.text.starts_with(':'))
@@ -113,11 +118,14 @@ impl<'a> Reader<'a, '_> {
             ));
             return (nothing.0, children.collect());
         };
-        (self.title(whole, title), children.collect())
+        match self.title(whole, title) {
+            Some(name) => (name, children.collect()),
+            None => nothing,
+        }
     }
 
-    /// `(WHOLE NAME)`.
-    fn title(&mut self, whole: &str, title: NodeId) -> Name<'a> {
+    /// The name in `(WHOLE NAME)`; nothing if the file is something else.
+    fn title(&mut self, whole: &str, title: NodeId) -> Option<Name<'a>> {
         let span = self.tree.span(title);
         match self.head(title) {
             Some(head) if head.is(whole) => {}
@@ -130,6 +138,7 @@ impl<'a> Reader<'a, '_> {
                     "give the domain first and the problem second",
                 );
                 self.diagnostics.push(diagnostic);
+                return None;
             }
             _ => self
                 .diagnostics
@@ -137,11 +146,11 @@ impl<'a> Reader<'a, '_> {
         }
         let name = self.tree.children(title).nth(1).filter(|&child| !self.tree.is_list(child));
         if let Some(name) = name {
-            return self.name(name);
+            return Some(self.name(name));
         }
         self.diagnostics
             .push(unexpected_item::missing_item(&format!("the name of the {whole}"), span));
-        Name { text: "", span }
+        Some(Name { text: "", span })
     }
 }
 
@@ -153,11 +162,17 @@ fn lower<'b>(word: &str, buffer: &'b mut [u8; 24]) -> &'b str {
     str::from_utf8(target).expect("lowering ASCII letters keeps UTF-8 whole")
 }
 
-/// Whether a word is a number and no name.
+/// Whether a word is a number and no name: `15` is one, `15-puzzle` is not.
 fn is_number(word: &str) -> bool {
-    let digits = word.strip_prefix(['-', '+']).unwrap_or(word);
-    digits.starts_with(|first: char| first.is_ascii_digit())
-        || digits
-            .strip_prefix('.')
-            .is_some_and(|rest| rest.starts_with(|first: char| first.is_ascii_digit()))
+    fn unsigned(word: &str) -> &str {
+        word.strip_prefix(['-', '+']).unwrap_or(word)
+    }
+    let (mantissa, exponent) = match unsigned(word).split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, Some(exponent)),
+        None => (unsigned(word), None),
+    };
+    let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let valued = digits(whole) && digits(fraction) && !(whole.is_empty() && fraction.is_empty());
+    valued && exponent.is_none_or(|exponent| !exponent.is_empty() && digits(unsigned(exponent)))
 }

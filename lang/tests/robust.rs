@@ -29,7 +29,10 @@ fn read(domain: &str, problem: &str) -> (Domain, Problem, Diagnostics) {
 
 /// Runs on a stack so small that recursion on the depth of the text could not go unnoticed.
 fn on_small_stack(work: impl FnOnce() + Send + 'static) {
-    let thread = std::thread::Builder::new().stack_size(512 * 1024).spawn(work).expect("a thread can be started");
+    let thread = std::thread::Builder::new()
+        .stack_size(512 * 1024)
+        .spawn(work)
+        .expect("a thread can be started");
     thread.join().expect("the work neither panics nor overflows its stack");
 }
 
@@ -59,7 +62,11 @@ fn every_missing_piece_is_read() {
                     continue;
                 }
                 let cut = format!("{}{}", &text[..start], &text[end..]);
-                if is_domain { read(&cut, other) } else { read(other, &cut) };
+                if is_domain {
+                    read(&cut, other)
+                } else {
+                    read(other, &cut)
+                };
             }
         }
     }
@@ -77,13 +84,28 @@ fn deep_nesting_is_read_in_linear_time() {
     const DEPTH: usize = 100_000;
     on_small_stack(|| {
         let start = Instant::now();
-        let nest = |open: &str, core: &str| format!("{}{core}{}", open.repeat(DEPTH), ")".repeat(DEPTH));
-        for open in ["(and ", "(or ", "(not ", "(imply (p) ", "(forall (?x) ", "(exists (?x - object) ", "(when (p) ", "(", "(q "] {
+        let nest =
+            |open: &str, core: &str| format!("{}{core}{}", open.repeat(DEPTH), ")".repeat(DEPTH));
+        for open in [
+            "(and ",
+            "(or ",
+            "(not ",
+            "(imply (p) ",
+            "(forall (?x) ",
+            "(exists (?x - object) ",
+            "(when (p) ",
+            "(",
+            "(q ",
+        ] {
             let (domain, _, _) = read(&domain_with(&nest(open, "(p)"), "(p)"), PROBLEM);
             assert_eq!(domain.actions.len(), 1, "{open}");
             let (domain, _, _) = read(&domain_with("(p)", &nest(open, "(p)")), PROBLEM);
             assert_eq!(domain.actions.len(), 1, "{open}");
-            let problem = format!("(define (problem x) (:domain deep) (:init {}) (:goal {}))", nest(open, "(p)"), nest(open, "(p)"));
+            let problem = format!(
+                "(define (problem x) (:domain deep) (:init {}) (:goal {}))",
+                nest(open, "(p)"),
+                nest(open, "(p)")
+            );
             read(&domain_with("(p)", "(p)"), &problem);
         }
         read(&"(".repeat(DEPTH), &")".repeat(DEPTH));
@@ -98,7 +120,8 @@ fn many_mistakes_take_linear_time() {
     let mut problem = "(define (problem many) (:domain kitchen) (:objects".to_owned();
     (0..4000).for_each(|n| write!(problem, " cup-number-{n} - cup").expect("a string takes all"));
     problem.push_str(") (:init");
-    (0..4000).for_each(|n| write!(problem, "\n(in kup-number-{n} table)").expect("a string takes all"));
+    (0..4000)
+        .for_each(|n| write!(problem, "\n(in kup-number-{n} table)").expect("a string takes all"));
     problem.push_str(") (:goal (and)))");
     let start = Instant::now();
     let (_, _, diagnostics) = read(DOMAIN, &problem);

@@ -118,6 +118,7 @@ fn declarations<'a>(
                     let numeric =
                         group.types.as_ref().is_none_or(|types| types.names[0].is("number"));
                     if !numeric {
+                        names.object_functions = true;
                         hierarchy::resolve(group.types.as_ref(), &names.types, "`:types`", report);
                     }
                     group.heads.iter().for_each(|head| function(head, domain, names, report));
@@ -241,15 +242,25 @@ fn action<'a>(action: &ast::Action<'a>, world: &World<'_, 'a>, report: &mut Repo
     let mut bindings = Bindings::new(format!("action `{}`", action.name));
     bindings.bind(&action.parameters, world, report);
     bindings.scope.parameters = bindings.scope.variables.len() as u32;
+    if !action.unread.is_empty() {
+        // A field that is not read may bind variables, so nothing can be said about the rest.
+        action.unread.iter().for_each(|unread| report.unsupported(unread));
+        let precondition = Formula::truth(span);
+        let (effects, increases) = (Vec::new(), Vec::new());
+        return Action {
+            name: name(action.name),
+            scope: bindings.scope,
+            precondition,
+            effects,
+            increases,
+            span,
+        };
+    }
     let mut conditions = Vec::new();
     for formula in &action.preconditions {
         conditions.push(condition::check(formula, 0, &mut bindings, world, report));
     }
     let (effects, increases) = effect::check(&action.effects, span, &mut bindings, world, report);
-    for unread in &action.unread {
-        bindings.unsure = true;
-        report.unsupported(unread);
-    }
     if !bindings.unsure {
         let parameters = bindings.scope.parameters as usize;
         for (variable, _) in bindings.scope.variables[..parameters]

@@ -25,6 +25,8 @@ pub fn problem(ast: &ast::Problem<'_>, domain: &Domain, diagnostics: &mut Diagno
     let declared = requirement::read(requirements.flatten(), diagnostics);
     let mut report = Report::new(diagnostics, declared);
     report.declare(Flags::from_model(&domain.requirements));
+    // Without a domain no name can be called unknown.
+    report.blind = domain.name.text.is_empty() && domain.predicates.is_empty();
     let mut names = table(domain);
     let mut problem = Problem {
         name: name(ast.name),
@@ -68,7 +70,7 @@ pub fn problem(ast: &ast::Problem<'_>, domain: &Domain, diagnostics: &mut Diagno
 
 /// The names of the domain.
 fn table(domain: &Domain) -> Names<'_> {
-    let mut names = Names::default();
+    let mut names = Names { object_functions: !domain.functions.is_empty(), ..Names::default() };
     for (id, of) in domain.types.iter().enumerate() {
         names.types.insert(&of.name.text, id as u32);
     }

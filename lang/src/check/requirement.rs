@@ -23,6 +23,7 @@ const CONDITIONAL: u32 = 1 << 7;
 const DERIVED: u32 = 1 << 8;
 const COSTS: u32 = 1 << 9;
 const NUMERIC: u32 = 1 << 10;
+const AGENTS: u32 = 1 << 11;
 /// Known by name and without meaning for what is checked so far.
 const OTHER: u32 = 0;
 
@@ -73,7 +74,7 @@ const KNOWN: [(&str, u32); 60] = [
     (":hierachie", OTHER),
     (":htn", OTHER),
     (":method-preconditions", OTHER),
-    (":multi-agent", OTHER),
+    (":multi-agent", AGENTS),
     (":unfactored-privacy", OTHER),
     (":factored-privacy", OTHER),
     (":concurrency-network", OTHER),
@@ -97,6 +98,11 @@ impl Flags {
     /// Whether one of `flags` is in the set.
     pub(super) fn meets(self, flags: Self) -> bool {
         self.0 & flags.0 != 0
+    }
+
+    /// Whether actions may have agents.
+    pub(super) fn agents(self) -> bool {
+        self.0 & AGENTS != 0
     }
 
     /// Puts all of `flags` into the set.

@@ -57,7 +57,7 @@ impl<'a> Bindings<'a> {
             }
             for &spelling in &group.names {
                 let id = self.scope.variables.len() as u32;
-                let before = self.visible.insert(spelling.text, id);
+                let before = self.visible.insert(bare(spelling.text), id);
                 if let Some(earlier) = before.filter(|&earlier| earlier >= first) {
                     let earlier = self.scope.variables[earlier as usize].name.span;
                     report.push(duplicate_parameter::duplicate_parameter(
@@ -68,7 +68,7 @@ impl<'a> Bindings<'a> {
                     ));
                     self.unsure = true;
                 } else {
-                    hidden.push((spelling.text, before));
+                    hidden.push((bare(spelling.text), before));
                 }
                 self.scope.variables.push(Variable { name: name(spelling), types: types.clone() });
                 self.used.push(false);
@@ -97,14 +97,15 @@ impl<'a> Bindings<'a> {
         world: &World<'_, 'a>,
         report: &mut Report<'_>,
     ) -> Option<VariableId> {
-        if let Some(id) = self.visible.find(spelling.text) {
+        if let Some(id) = self.visible.find(bare(spelling.text)) {
             self.used[id as usize] = true;
             return Some(VariableId(id));
         }
         self.unsure = true;
         let key = format!("{} in {}", spelling.text, self.owner);
         if report.first(&unknown_variable::RULE, &key) {
-            let near = report.nearest(spelling.text, &self.visible);
+            let near = report.nearest(bare(spelling.text), &self.visible);
+            let near = near.map(|near| format!("?{near}"));
             let variables = self.scope.variables.iter().take(SHOWN);
             let scope: Vec<String> = variables
                 .map(|variable| {
@@ -116,7 +117,7 @@ impl<'a> Bindings<'a> {
                 spelling.span,
                 &self.owner,
                 &scope,
-                near,
+                near.as_deref(),
             ));
         }
         None
@@ -132,7 +133,22 @@ impl<'a> Bindings<'a> {
         if spelling.is_variable() {
             return self.variable(spelling, world, report).map(Term::Variable);
         }
-        object(spelling, world, report).map(Term::Object)
+        let found = world.names.objects.find(spelling.text).map(ObjectId);
+        if found.is_none() && self.visible.find(bare(spelling.text)).is_some() {
+            self.unsure = true;
+            if report.first(&unknown_object::RULE, spelling.text) {
+                let variable = format!("?{}", spelling.text);
+                let (text, span) = (spelling.text, spelling.span);
+                report.push(unknown_object::unknown_object(
+                    text,
+                    span,
+                    world.places,
+                    Some(&variable),
+                ));
+            }
+            return None;
+        }
+        found.or_else(|| object(spelling, world, report)).map(Term::Object)
     }
 
     /// The types of a term, and whether it has all of them.
@@ -216,6 +232,11 @@ impl<'a> Bindings<'a> {
             self.term(argument, world, report);
         }
     }
+}
+
+/// A variable without its `?`, which a declaration may lack by mistake.
+fn bare(variable: &str) -> &str {
+    variable.strip_prefix('?').unwrap_or(variable)
 }
 
 /// How many variables a message lists.

@@ -48,7 +48,7 @@ const FIELDS: [&str; 12] = [
 
 /// Reads a domain.
 pub fn domain<'a>(tree: &Tree<'a>, diagnostics: &mut Diagnostics) -> Domain<'a> {
-    let mut reader = Reader { tree, diagnostics };
+    let mut reader = Reader { tree, diagnostics, lost: false };
     let (name, items) = reader.definition("domain");
     let mut sections = Vec::with_capacity(items.len());
     for item in items {
@@ -66,9 +66,12 @@ impl<'a> Reader<'a, '_> {
         known: &[&'static str],
     ) -> Option<(Name<'a>, &'static str)> {
         let Some(head) = self.head(item) else {
-            self.unexpected("a section such as `(:init …)`", item);
+            if !std::mem::replace(&mut self.lost, true) {
+                self.unexpected("a section in parentheses", item);
+            }
             return None;
         };
+        self.lost = false;
         if let Some(&section) = known.iter().find(|section| head.is(section)) {
             return Some((head, section));
         }
@@ -142,6 +145,15 @@ impl<'a> Reader<'a, '_> {
             match self.head(item) {
                 Some(head) if head.is(":private") => {
                     unread.push(self.unread(Feature::MultiAgent, head, item));
+                    // Whose they are is not read yet; that they exist is.
+                    let private =
+                        self.tree.children(item).filter(|&child| self.tree.is_list(child));
+                    let private: Vec<_> = private.collect();
+                    heads.extend(
+                        private
+                            .into_iter()
+                            .filter_map(|child| self.declaration(child, "a predicate")),
+                    );
                 }
                 _ => heads.extend(self.declaration(item, "a predicate")),
             }
@@ -210,8 +222,9 @@ impl<'a> Reader<'a, '_> {
                 seen.push((field, keyword.span));
             }
             let mut count = 0;
+            let agent = field == ":agent";
             while let Some(value) =
-                parts.next_if(|&value| tree.is_list(value) || !self.is_field(value))
+                parts.next_if(|&value| tree.is_list(value) || !self.is_field(value, agent))
             {
                 count += 1;
                 self.field_value(field, keyword, value, count, &mut action);
@@ -221,9 +234,11 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Whether a word that follows a value starts a field, although it may be misspelt.
-    fn is_field(&self, part: NodeId) -> bool {
+    fn is_field(&self, part: NodeId, after_agent: bool) -> bool {
         let word = self.tree.slice(part);
-        word.starts_with(':') || FIELDS.iter().any(|field| field[1..].eq_ignore_ascii_case(word))
+        // The value of `:agent` is no list: in `:agent ?a - agent` the last word is a type.
+        word.starts_with(':')
+            || !after_agent && FIELDS.iter().any(|field| field[1..].eq_ignore_ascii_case(word))
     }
 
     /// The field that a word starts, taken as the one that was probably meant.

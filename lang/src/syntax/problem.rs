@@ -21,7 +21,7 @@ const SECTIONS: [&str; 9] = [
 
 /// Reads a problem.
 pub fn problem<'a>(tree: &Tree<'a>, diagnostics: &mut Diagnostics) -> Problem<'a> {
-    let mut reader = Reader { tree, diagnostics };
+    let mut reader = Reader { tree, diagnostics, lost: false };
     let (name, items) = reader.definition("problem");
     let mut sections = Vec::with_capacity(items.len());
     for item in items {
