@@ -7,6 +7,7 @@ mod tasks;
 mod side;
 mod meter;
 mod row;
+mod judge;
 mod report;
 
 use std::fs;

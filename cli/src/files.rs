@@ -46,8 +46,17 @@ pub fn name(path: &Path) -> String {
     if is_stdin(path) { "<stdin>".to_string() } else { path.display().to_string() }
 }
 
+/// A text as it was read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Text {
+    /// As far as it is UTF-8.
+    pub text: String,
+    /// The first byte that is not, if there is one.
+    pub bad: Option<usize>,
+}
+
 /// The text of a file, or of the standard input.
-pub fn read(path: &Path) -> Result<String, Complaint> {
+pub fn read(path: &Path) -> Result<Text, Complaint> {
     let bytes = if is_stdin(path) {
         let mut bytes = Vec::new();
         io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
@@ -55,17 +64,13 @@ pub fn read(path: &Path) -> Result<String, Complaint> {
         fs::read(path)
     };
     let bytes = bytes.map_err(|error| unreadable(path, &error))?;
-    String::from_utf8(bytes).map_err(|error| {
-        let offset = error.utf8_error().valid_up_to();
-        let line = error.as_bytes()[..offset].split(|&byte| byte == b'\n').count();
-        let byte = error.as_bytes()[offset];
-        Complaint::with_help(
-            format!(
-                "`{}` is not UTF-8: byte 0x{byte:02x} at offset {offset}, in line {line}",
-                name(path)
-            ),
-            "convert the file to UTF-8; PDDL itself needs ASCII only",
-        )
+    Ok(match String::from_utf8(bytes) {
+        Ok(text) => Text { text, bad: None },
+        Err(error) => {
+            let bad = error.utf8_error().valid_up_to();
+            let text = String::from_utf8_lossy(&error.as_bytes()[..bad]).into_owned();
+            Text { text, bad: Some(bad) }
+        }
     })
 }
 
@@ -182,12 +187,8 @@ mod tests {
         let folder = tempfile::tempdir().expect("a temporary folder can be made");
         let file = folder.path().join("latin.pddl");
         fs::write(&file, b"(define\n; caf\xe9\n").expect("a file can be written");
-        let complaint = read(&file).expect_err("the file is not UTF-8");
-        assert!(
-            complaint.message.ends_with("byte 0xe9 at offset 13, in line 2"),
-            "{}",
-            complaint.message
-        );
+        let text = read(&file).expect("the file is there");
+        assert_eq!((text.text.as_str(), text.bad), ("(define\n; caf", Some(13)));
     }
 
     #[test]

@@ -4,10 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use lang::Kind;
-use lang::diagnostic::{Diagnostic, Diagnostics, Severity, unsupported_feature};
+use lang::diagnostic::{Diagnostic, Diagnostics, Severity, not_utf8, unsupported_feature};
 use lang::model::{Domain, Problem};
 use lang::render;
-use lang::source::{SourceId, Sources};
+use lang::source::{SourceId, Sources, Span};
 use planner::normalize::Unsupported;
 
 use crate::args::OutputFormat;
@@ -21,6 +21,8 @@ pub struct Reader {
     /// Their texts.
     pub sources: Sources,
     taken: Vec<(PathBuf, SourceId)>,
+    /// For each text that is not UTF-8 throughout, the diagnostic that says so: what else is wrong with it follows from that.
+    broken: Vec<Diagnostic>,
 }
 
 /// A task.
@@ -83,7 +85,17 @@ impl Reader {
                 domains.iter().find(named).or(domains.last()).expect("one has just been added");
             found.append(lang::read_problem(&self.sources, problem, domain).1);
         }
+        self.settle(&mut found);
         Ok(found)
+    }
+
+    /// Puts the diagnostics of texts that are not UTF-8 in the place of all others about them.
+    pub fn settle(&self, found: &mut Diagnostics) {
+        for broken in &self.broken {
+            let source = broken.primary.span.source;
+            found.list.retain(|diagnostic| diagnostic.primary.span.source != source);
+            found.list.push(broken.clone());
+        }
     }
 
     /// Reads a domain and adds what is wrong with it.
@@ -100,7 +112,11 @@ impl Reader {
             return Ok(*id);
         }
         let text = files::read(path)?;
-        let id = self.sources.add(files::name(path), text);
+        let end = text.text.len() as u32;
+        let id = self.sources.add(files::name(path), text.text);
+        if let Some(bad) = text.bad {
+            self.broken.push(not_utf8::not_utf8(bad, Span::new(id, end, end)));
+        }
         self.taken.push((path.to_path_buf(), id));
         Ok(id)
     }
@@ -112,7 +128,11 @@ impl Reader {
     }
 
     /// The domain and the problem among the paths of a command line; a domain that is left out is looked for.
-    fn task(&mut self, paths: &[PathBuf], verb: &str) -> Result<(SourceId, SourceId), Complaint> {
+    pub fn task(
+        &mut self,
+        paths: &[PathBuf],
+        verb: &str,
+    ) -> Result<(SourceId, SourceId), Complaint> {
         match paths {
             [problem] => {
                 if let Some(Kind::Domain { .. }) = self.kind(problem)? {
@@ -255,6 +275,7 @@ pub fn load(
     let (domain, mut found) = lang::read_domain(&reader.sources, domain_id);
     let (problem, more) = lang::read_problem(&reader.sources, problem_id, &domain);
     found.append(more);
+    reader.settle(&mut found);
     found.list.retain(|diagnostic| diagnostic.severity == Severity::Error);
     if found.list.is_empty() {
         return Ok(Input { reader, domain, problem });

@@ -174,8 +174,12 @@ fn resident() -> u64 {
 
 /// The most memory that this process has had resident so far, in KiB.
 pub fn peak_memory() -> u64 {
-    // Linux counts `ru_maxrss` in KiB.
-    getrusage(UsageWho::RUSAGE_SELF).map_or(0, |usage| usage.max_rss() as u64)
+    // Not `ru_maxrss`, which still counts the parent from before this program was loaded.
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let peak = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:")?.split_ascii_whitespace().next());
+    peak.and_then(|peak| peak.parse().ok()).unwrap_or(0)
 }
 
 #[cfg(test)]

@@ -77,8 +77,9 @@ fn one(
             "the order is domain, problem, plans",
         ));
     }
-    let (listing, diagnostics) =
+    let (listing, mut diagnostics) =
         lang::plan::read(&input.reader.sources, id, &input.domain, &input.problem);
+    input.reader.settle(&mut diagnostics);
     terminal.talk(input::rendered(
         &input.reader.sources,
         &diagnostics,

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::{fs, io};
 
+use super::judge::{self, Judgement};
 use super::row::{self, Row, Verdict};
 use super::tasks::Task;
 use crate::args::{Bench, List};
@@ -49,6 +50,7 @@ pub(super) fn report(
     if arguments.list == List::Ground {
         counts(&mut text, &pairs);
     } else {
+        plans(&mut text, arguments, &pairs, &shared.join("benchmarks/ipc"));
         quality(&mut text, arguments.list, &pairs, &costs);
         discordant(&mut text, &pairs);
         domains(&mut text, &pairs);
@@ -235,6 +237,40 @@ fn same(cost: f64, reference: f64) -> bool {
     } else {
         (cost / reference - 1.0).abs() < 1e-5
     }
+}
+
+/// What the validator says of all plans that were kept.
+fn plans(text: &mut String, arguments: &Bench, pairs: &[Pair], ipc: &Path) {
+    let mut faults = Vec::new();
+    let mut judged = 0;
+    for pair in pairs {
+        for (side, row) in [("ours", &pair.ours), ("peer", &pair.peer)] {
+            let Some(row) = row.as_ref().filter(|row| row.verdict == Verdict::Solved) else {
+                continue;
+            };
+            let plan = row::plan_file(&arguments.out, arguments.list, side, &pair.problem);
+            judged += 1;
+            match judge::judge(&ipc.join(&row.key.domain), &ipc.join(&pair.problem), &plan) {
+                Judgement::Valid(cost) if Some(&cost) == row.cells.get("cost") => {}
+                Judgement::Valid(cost) => faults.push(format!(
+                    "- {}: {side} says that its plan costs {}, but it costs {cost}",
+                    pair.problem, row.cells["cost"]
+                )),
+                Judgement::Invalid(reason) => {
+                    faults.push(format!("- {}: {side}: {reason}", pair.problem));
+                }
+            }
+        }
+    }
+    let _ = writeln!(
+        text,
+        "Plans that are not valid or cost something else than was said: {} of {judged}.",
+        faults.len()
+    );
+    for fault in &faults {
+        let _ = writeln!(text, "{fault}");
+    }
+    text.push('\n');
 }
 
 /// Costs against the reference, and the sum of relative costs.
