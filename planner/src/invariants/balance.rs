@@ -42,9 +42,9 @@ impl<'a> Known<'a> {
         };
         for literal in &condition.literals {
             if literal.positive {
-                known.positive.push(&literal.atom)
+                known.positive.push(&literal.atom);
             } else {
-                known.negative.push(&literal.atom)
+                known.negative.push(&literal.atom);
             }
         }
         let mut filters: Vec<&Filter> = condition.filters.iter().collect();
@@ -85,7 +85,7 @@ struct Action<'a> {
 /// All schemas, prepared.
 pub(super) struct Actions<'a> {
     kinds: &'a Kinds,
-    actions: Vec<Action<'a>>,
+    all: Vec<Action<'a>>,
     /// For each predicate the actions that add it.
     adders: Vec<Vec<u32>>,
 }
@@ -124,7 +124,7 @@ impl<'a> Actions<'a> {
                 deletes: deletes.into_iter().map(change).collect(),
             });
         }
-        Self { kinds, actions, adders }
+        Self { kinds, all: actions, adders }
     }
 
     /// Checks a candidate on all schemas that add what it covers.
@@ -139,12 +139,12 @@ impl<'a> Actions<'a> {
         threats.dedup();
         if threats
             .iter()
-            .any(|&action| self.actions[action as usize].is_heavy(candidate, self.kinds, work))
+            .any(|&action| self.all[action as usize].is_heavy(candidate, self.kinds, work))
         {
             return Verdict::Heavy;
         }
         for &action in &threats {
-            let action = &self.actions[action as usize];
+            let action = &self.all[action as usize];
             for (index, add) in action.adds.iter().enumerate() {
                 let Some(part) = candidate.part(add.atom.predicate.0) else { continue };
                 let scene = action.scene_of(add, part, candidate, self.kinds);
@@ -406,25 +406,23 @@ impl<'a> Action<'a> {
                 Term::Variable(variable) if delete.variables.contains(&variable) => {
                     match binding.iter().find(|&&(bound, _)| bound == variable) {
                         Some(&(_, bound)) if scene.classes.same(bound, value) => {}
-                        Some(_) => return false,
                         None if scene.classes.kinds(value) & !self.kinds[variable as usize].1
                             == 0 =>
                         {
                             binding.push((variable, value));
                         }
-                        None => return false,
+                        _ => return false,
                     }
                 }
                 term if scene.classes.same(term, value) => {}
                 _ => return false,
             }
         }
-        self.implied(&delete.condition, delete.variables, &binding, scene)
+        Self::implied(&delete.condition, delete.variables, &binding, scene)
     }
 
     /// Whether a condition holds for sure under a binding of its quantified variables.
     fn implied(
-        &self,
         known: &Known<'a>,
         variables: &[u32],
         binding: &[(u32, Term)],
