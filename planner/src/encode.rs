@@ -14,6 +14,7 @@ mod cover;
 mod operators;
 mod order;
 mod prune;
+mod twins;
 mod axioms;
 
 use std::collections::BTreeSet;
@@ -43,8 +44,6 @@ pub struct Encoded {
     pub task: Task,
     /// For each operator of the task the index of the ground operator that it stems from.
     pub origins: Vec<u32>,
-    /// The mutex groups with two or more facts of the task, also those within one variable.
-    pub groups: Vec<Vec<Fact>>,
     /// Whether it is settled already that no plan exists; the task is then a small one without any plan.
     pub unsolvable: bool,
     /// Where the values of each variable start in `values`.
@@ -128,19 +127,15 @@ pub fn encode(
             None => Value::Other,
         }));
     }
-    let mut kept_groups = Vec::new();
     for group in groups {
         let facts: BTreeSet<Fact> =
             group.iter().filter_map(|fact| pruned.fact(layout.homes[fact.index()])).collect();
-        if facts.len() > 1 {
-            let facts: Vec<Fact> = facts.into_iter().collect();
-            if facts.iter().any(|fact| fact.variable != facts[0].variable) {
-                task.mutex_groups.push(facts.clone());
-            }
-            kept_groups.push(facts);
+        let facts: Vec<Fact> = facts.into_iter().collect();
+        if facts.iter().any(|fact| fact.variable != facts[0].variable) {
+            task.mutex_groups.push(facts);
         }
     }
-    Ok(Encoded { task, origins, groups: kept_groups, unsolvable: false, offsets, values })
+    Ok(Encoded { task, origins, unsolvable: false, offsets, values })
 }
 
 /// A task of one variable whose goal holds already or never.
@@ -153,14 +148,7 @@ fn trivial(solvable: bool) -> Encoded {
         ..Task::default()
     };
     let values = vec![Value::Other; 2];
-    Encoded {
-        task,
-        origins: Vec::new(),
-        groups: Vec::new(),
-        unsolvable: !solvable,
-        offsets: vec![0],
-        values,
-    }
+    Encoded { task, origins: Vec::new(), unsolvable: !solvable, offsets: vec![0], values }
 }
 
 #[cfg(test)]

@@ -28,7 +28,10 @@ pub(super) fn translate(
 ) -> Result<Translated, Stop> {
     let mut translator = Translator::new(grounded, layout);
     let mut origins = Vec::with_capacity(grounded.operators.len());
+    // Nothing but duals makes the task longer than the ground problem; what is not used is given back when pruning ends.
     translator.task.operators.reserve(grounded.operators.len());
+    translator.task.precondition_pool.reserve(grounded.literals.len());
+    translator.task.effect_pool.reserve(grounded.effects.len());
     for (index, operator) in grounded.operators.iter().enumerate() {
         if index % POLL == 0
             && let Some(stop) = limits.stopped()
@@ -153,14 +156,19 @@ impl<'a> Translator<'a> {
         true
     }
 
-    /// Leaves the precondition (of an operator or an axiom, or the goal) in the scratch and marks what it fixes; false if it can never hold.
+    /// Leaves the precondition (of an operator or an axiom, or the goal) in the scratch, not sorted, and marks what it fixes; false if it
+    /// can never hold.
     fn precondition(&mut self, literals: &[Literal]) -> bool {
         for literal in literals.iter().filter(|literal| literal.positive) {
             let home = self.layout.homes[literal.fact.index()];
-            if !self.fix(home) {
-                return false;
+            match self.known(home.variable) {
+                Some(value) if value == home.value => continue,
+                Some(_) => return false,
+                None => {
+                    self.fix(home);
+                    self.scratch.push(home);
+                }
             }
-            self.scratch.push(home);
             let dual = self.layout.duals[literal.fact.index()];
             if dual != NONE {
                 self.fix(Fact { variable: VariableId(dual), value: 0 });
@@ -184,27 +192,19 @@ impl<'a> Translator<'a> {
                 }
                 None => {
                     let negation = self.negation(literal.fact);
-                    if !self.fix(negation) {
-                        return false;
-                    }
+                    self.fix(negation);
                     self.scratch.push(negation);
                 }
             }
         }
-        self.scratch.sort_unstable();
-        self.scratch.dedup();
         true
     }
 
-    /// Marks a variable as fixed by the precondition; false if it is fixed to another value.
-    fn fix(&mut self, fact: Fact) -> bool {
+    /// Marks a variable as fixed by the precondition.
+    fn fix(&mut self, fact: Fact) {
         let slot = &mut self.slots[fact.variable.index()];
-        if slot.known == self.stamp {
-            return slot.value == fact.value;
-        }
         slot.known = self.stamp;
         slot.value = fact.value;
-        true
     }
 
     /// What the precondition fixes a variable to.

@@ -1,15 +1,11 @@
 //! A translated task goes in; what the goal does not need and what is never reached goes away, and variables get their final order.
 
-use hashbrown::HashTable;
-use rustc_hash::FxHasher;
-use std::hash::{Hash, Hasher};
-
-use crate::encode::cover::Lists;
 use crate::encode::order;
+use crate::encode::twins::{self, Ends};
 use crate::task::{Effect, Fact, OperatorId, Task, Variable, VariableId};
 
-/// Stands for a variable or a value that is gone.
-const GONE: u32 = u32::MAX;
+/// Stands for a fact that is gone.
+const GONE: Fact = Fact { variable: VariableId(u32::MAX), value: 0 };
 
 /// What became of variables and values.
 pub(super) struct Pruned {
@@ -17,22 +13,20 @@ pub(super) struct Pruned {
     pub(super) variables: Vec<u32>,
     /// For each kept variable, for each kept value, the one it was.
     pub(super) values: Vec<Vec<u32>>,
-    /// For each variable that was, what it is.
-    map: Vec<u32>,
-    /// Where the values of each variable that was start in `mapped`.
+    /// Where the values of each variable that was start in `facts`.
     offsets: Vec<u32>,
-    mapped: Vec<u32>,
+    /// For each fact that was, what it is.
+    facts: Vec<Fact>,
     /// Whether a goal is never reached.
     pub(super) unsolvable: bool,
 }
 
 impl Pruned {
     /// What an old fact is now; `None` if its variable or its value is gone.
+    #[inline]
     pub(super) fn fact(&self, old: Fact) -> Option<Fact> {
-        let variable = self.map[old.variable.index()];
-        let value = self.mapped[(self.offsets[old.variable.index()] + old.value) as usize];
-        (variable != GONE && value != GONE)
-            .then_some(Fact { variable: VariableId(variable), value })
+        let fact = self.facts[(self.offsets[old.variable.index()] + old.value) as usize];
+        (fact != GONE).then_some(fact)
     }
 }
 
@@ -47,24 +41,22 @@ pub(super) fn prune(task: &mut Task, origins: &mut Vec<u32>) -> Pruned {
     offsets.push(total);
     let reached = Reach::explore(task, &offsets, total as usize);
     let unsolvable = task.goal.iter().any(|&fact| !reached.has(fact));
-    let kept = relevant(task, &reached);
+    let kept = Relevance::explore(task, &reached);
     let variables = if unsolvable { Vec::new() } else { order::order(task, &kept) };
     let mut pruned = Pruned {
-        map: vec![GONE; task.variables.len()],
         values: Vec::with_capacity(variables.len()),
         variables,
-        mapped: vec![GONE; total as usize],
+        facts: vec![GONE; total as usize],
         offsets,
         unsolvable,
     };
     for (new, &old) in pruned.variables.iter().enumerate() {
-        pruned.map[old as usize] = new as u32;
         let mut values = Vec::new();
         for value in 0..task.variables[old as usize].domain_size {
             let fact = Fact { variable: VariableId(old), value };
             if reached.has(fact) {
-                pruned.mapped[(pruned.offsets[old as usize] + value) as usize] =
-                    values.len() as u32;
+                pruned.facts[(pruned.offsets[old as usize] + value) as usize] =
+                    Fact { variable: VariableId(new as u32), value: values.len() as u32 };
                 values.push(value);
             }
         }
@@ -162,53 +154,89 @@ impl Reach {
 }
 
 /// The variables that move and on which the goal depends.
-fn relevant(task: &Task, reached: &Reach) -> Vec<bool> {
-    let written = |operator: u32| {
-        task.effects(OperatorId(operator))
-            .iter()
-            .map(move |effect| (effect.fact.variable.0, operator))
-    };
-    let writers = (0..task.operators.len() as u32).flat_map(written);
-    let writers = Lists::new(task.variables.len(), writers);
-    let heads = Lists::new(
-        task.variables.len(),
-        task.axioms.iter().enumerate().map(|(axiom, a)| (a.head.variable.0, axiom as u32)),
-    );
-    let mut kept = vec![false; task.variables.len()];
-    let mut queue: Vec<u32> = Vec::new();
-    let mut need = |facts: &[Fact], queue: &mut Vec<u32>| {
+struct Relevance<'a> {
+    task: &'a Task,
+    reached: &'a Reach,
+    kept: Vec<bool>,
+    /// How many variables move and are not kept yet.
+    left: usize,
+}
+
+impl<'a> Relevance<'a> {
+    /// Sweeps over the operators, last first, until no variable is new: operators near the goal tend to come last, and mostly two sweeps
+    /// find that everything matters. Where many would be needed, everything does.
+    fn explore(task: &'a Task, reached: &'a Reach) -> Vec<bool> {
+        let left = reached.moves.iter().filter(|&&moves| moves).count();
+        let mut relevance = Self { task, reached, kept: vec![false; task.variables.len()], left };
+        relevance.need(&task.goal);
+        let mut operators: Vec<u32> = Vec::new();
+        let mut axioms: Vec<u32> = (0..task.axioms.len() as u32).collect();
+        let mut before = usize::MAX;
+        for operator in (0..task.operators.len() as u32).rev() {
+            if relevance.left == 0 {
+                break;
+            }
+            if reached.all(task.precondition(OperatorId(operator)))
+                && !relevance.operator(OperatorId(operator))
+            {
+                operators.push(operator);
+            }
+        }
+        let mut work = 64 * (task.operators.len() + task.axioms.len());
+        while relevance.left > 0 && relevance.left < before {
+            before = relevance.left;
+            if work < operators.len() + axioms.len() {
+                return reached.moves.clone();
+            }
+            work -= operators.len() + axioms.len();
+            axioms.retain(|&axiom| !relevance.axiom(axiom));
+            operators.retain(|&operator| !relevance.operator(OperatorId(operator)));
+        }
+        relevance.kept
+    }
+
+    fn need(&mut self, facts: &[Fact]) {
         for fact in facts {
             let variable = fact.variable.index();
-            if !kept[variable] && reached.moves[variable] {
-                kept[variable] = true;
-                queue.push(fact.variable.0);
-            }
-        }
-    };
-    let mut seen = vec![false; task.operators.len()];
-    need(&task.goal, &mut queue);
-    while let Some(variable) = queue.pop() {
-        for &axiom in heads.row(variable as usize) {
-            need(task.conditions(&task.axioms[axiom as usize].conditions), &mut queue);
-        }
-        for &operator in writers.row(variable as usize) {
-            let id = OperatorId(operator);
-            if !std::mem::replace(&mut seen[operator as usize], true) {
-                if !reached.all(task.precondition(id)) {
-                    continue;
-                }
-                need(task.precondition(id), &mut queue);
-            }
-            for effect in task.effects(id).iter().filter(|effect| {
-                effect.fact.variable.0 == variable && !effect.conditions.is_empty()
-            }) {
-                if reached.all(task.conditions(&effect.conditions)) {
-                    need(task.conditions(&effect.conditions), &mut queue);
-                }
+            if !self.kept[variable] && self.reached.moves[variable] {
+                self.kept[variable] = true;
+                self.left -= 1;
             }
         }
     }
-    kept
+
+    /// Needs what the operator's effects on kept variables need; whether it has no others.
+    fn operator(&mut self, operator: OperatorId) -> bool {
+        let task = self.task;
+        let mut done = true;
+        let mut any = false;
+        for effect in task.effects(operator) {
+            if self.kept[effect.fact.variable.index()] {
+                any = true;
+                if !effect.conditions.is_empty()
+                    && self.reached.all(task.conditions(&effect.conditions))
+                {
+                    self.need(task.conditions(&effect.conditions));
+                }
+            } else {
+                done &= effect.conditions.is_empty();
+            }
+        }
+        if any {
+            self.need(task.precondition(operator));
+        }
+        any && done
+    }
+
+    /// Needs what the axiom needs if its head is kept; whether it is.
+    fn axiom(&mut self, axiom: u32) -> bool {
+        let axiom = &self.task.axioms[axiom as usize];
+        let kept = self.kept[axiom.head.variable.index()];
+        if kept && self.reached.all(self.task.conditions(&axiom.conditions)) {
+            self.need(self.task.conditions(&axiom.conditions));
+        }
+        kept
+    }
 }
 
 fn rewrite_variables(task: &mut Task, pruned: &Pruned) {
@@ -251,65 +279,55 @@ fn compact(
             *end += 1;
         }
     }
-    pool[start..*end].sort_unstable();
+    let facts = &mut pool[start..*end];
+    if !facts.is_sorted() {
+        facts.sort_unstable();
+    }
     start as u32..*end as u32
 }
 
 /// Renames operators in place: nothing ever grows, so each pool is read ahead of where it is written.
 fn rewrite_operators(task: &mut Task, origins: &mut Vec<u32>, pruned: &Pruned, reached: &Reach) {
-    let (mut operators, mut preconditions, mut effects, mut conditions) = (0, 0, 0, 0);
-    let mut cheapest: HashTable<u32> = HashTable::with_capacity(task.operators.len());
+    let mut ends = Ends::default();
+    let mut kept = 0;
     for index in 0..task.operators.len() {
         let mut operator = task.operators[index].clone();
-        let starts = (preconditions, effects, conditions);
         if pruned.unsolvable || !reached.all(task.precondition(OperatorId(index as u32))) {
             continue;
         }
+        let start = ends.effects;
         for position in operator.effects.clone() {
-            let Effect { conditions: range, fact } = task.effect_pool[position as usize].clone();
+            let Effect { conditions, fact } = task.effect_pool[position as usize].clone();
             let Some(fact) = pruned.fact(fact) else { continue };
-            if !reached.all(&task.condition_pool[range.start as usize..range.end as usize]) {
-                continue;
+            if reached.all(task.conditions(&conditions)) {
+                let pool = &mut task.condition_pool;
+                let conditions = compact(pool, &conditions, &mut ends.conditions, pruned);
+                task.effect_pool[ends.effects] = Effect { conditions, fact };
+                ends.effects += 1;
             }
-            let range = compact(&mut task.condition_pool, &range, &mut conditions, pruned);
-            task.effect_pool[effects] = Effect { conditions: range, fact };
-            effects += 1;
         }
-        if effects == starts.1 {
+        if ends.effects == start {
             continue;
         }
-        operator.precondition = compact(
-            &mut task.precondition_pool,
-            &operator.precondition,
-            &mut preconditions,
-            pruned,
-        );
-        effects = sort_effects(&mut task.effect_pool, starts.1, effects);
-        operator.effects = starts.1 as u32..effects as u32;
-        task.operators[operators] = operator;
-        let twin = OperatorId(operators as u32);
-        let hash = fingerprint(task, twin);
-        match cheapest.find(hash, |&other| same(task, twin, OperatorId(other))) {
-            None => {
-                cheapest.insert_unique(hash, twin.0, |&other| fingerprint(task, OperatorId(other)));
-                origins[operators] = origins[index];
-                operators += 1;
-            }
-            Some(&other) => {
-                let cost = task.operators[operators].cost;
-                if cost < task.operators[other as usize].cost {
-                    task.operators[other as usize].cost = cost;
-                    origins[other as usize] = origins[index];
-                }
-                (preconditions, effects, conditions) = starts;
-            }
-        }
+        let pool = &mut task.precondition_pool;
+        operator.precondition =
+            compact(pool, &operator.precondition, &mut ends.preconditions, pruned);
+        ends.effects = sort_effects(&mut task.effect_pool, start, ends.effects);
+        operator.effects = start as u32..ends.effects as u32;
+        task.operators[kept] = operator;
+        origins[kept] = origins[index];
+        kept += 1;
     }
-    task.operators.truncate(operators);
-    origins.truncate(operators);
-    task.precondition_pool.truncate(preconditions);
-    task.effect_pool.truncate(effects);
-    move_axiom_conditions(task, conditions);
+    task.operators.truncate(kept);
+    origins.truncate(kept);
+    let ends = twins::merge(task, origins, ends);
+    task.operators.shrink_to_fit();
+    origins.shrink_to_fit();
+    task.precondition_pool.truncate(ends.preconditions);
+    task.precondition_pool.shrink_to_fit();
+    task.effect_pool.truncate(ends.effects);
+    task.effect_pool.shrink_to_fit();
+    move_axiom_conditions(task, ends.conditions);
 }
 
 /// Sorts effects without conditions by variable, of several on one the last, and says where they end. With conditions their order means
@@ -341,29 +359,6 @@ fn move_axiom_conditions(task: &mut Task, end: usize) {
     for axiom in &mut task.axioms {
         axiom.conditions = axiom.conditions.start - gap..axiom.conditions.end - gap;
     }
-}
-
-fn fingerprint(task: &Task, operator: OperatorId) -> u64 {
-    let mut hasher = FxHasher::default();
-    for fact in task.precondition(operator) {
-        fact.hash(&mut hasher);
-    }
-    for effect in task.effects(operator) {
-        effect.fact.hash(&mut hasher);
-        task.conditions(&effect.conditions).hash(&mut hasher);
-    }
-    hasher.finish()
-}
-
-/// Whether two operators are applicable in the same states and do the same.
-fn same(task: &Task, left: OperatorId, right: OperatorId) -> bool {
-    let equal = |(a, b): (&Effect, &Effect)| {
-        a.fact == b.fact && task.conditions(&a.conditions) == task.conditions(&b.conditions)
-    };
-    let (ours, theirs) = (task.effects(left), task.effects(right));
-    task.precondition(left) == task.precondition(right)
-        && ours.len() == theirs.len()
-        && ours.iter().zip(theirs).all(equal)
 }
 
 fn rewrite_axioms(task: &mut Task, pruned: &Pruned, reached: &Reach) {

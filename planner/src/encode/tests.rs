@@ -206,9 +206,6 @@ proptest! {
         let truth = Propositional::explore(&grounded);
         let groups = truth.groups(seed);
         let (grounded, encoded) = encoded(&draft, &groups);
-        for group in &encoded.groups {
-            prop_assert!(group.len() > 1);
-        }
         let reached = explore(&encoded);
         if encoded.unsolvable {
             prop_assert_eq!(truth.cost, None);

@@ -42,13 +42,13 @@ pub fn summary(encoded: &Encoded) -> String {
     let task = &encoded.task;
     let derived = task.variables.iter().filter(|variable| variable.axiom_layer.is_some()).count();
     let facts: u64 = task.variables.iter().map(|variable| u64::from(variable.domain_size)).sum();
-    let sizes: usize = encoded.groups.iter().map(Vec::len).sum();
+    let sizes: usize = task.mutex_groups.iter().map(Vec::len).sum();
     let counts = [
         ("variables", task.variables.len()),
         ("derived variables", derived),
         ("facts", facts as usize),
         ("goal facts", task.goal.len()),
-        ("mutex groups", encoded.groups.len()),
+        ("mutex groups", task.mutex_groups.len()),
         ("total mutex groups size", sizes),
         ("operators", task.operators.len()),
         ("axioms", task.axioms.len()),
@@ -73,8 +73,8 @@ pub fn write(
     text.number(u32::from(task.uses_metric)).end();
     text.line("end_metric");
     variables(&mut text, encoded, grounded, names)?;
-    text.number(encoded.groups.len() as u32).end();
-    for group in &encoded.groups {
+    text.number(task.mutex_groups.len() as u32).end();
+    for group in &task.mutex_groups {
         text.line("begin_mutex_group");
         facts(&mut text, group);
         text.line("end_mutex_group");

@@ -5,10 +5,10 @@ use crate::encode::{encode, tests::random::Draft};
 use crate::limits::Limits;
 
 fn example() -> (Grounded, Encoded, Names) {
-    let draft = "init f0; f0 -> -f0 f1 cost 3; f1 -> -f1 [f3 > f0] f2 cost 10; -> f3 cost 0; f1 -> [f4 > f5]; \
+    let draft = "init f0; f0 -> -f0 -f2 f1 cost 3; f1 -> -f1 [f3 > f0] f2 cost 10; -> f3 cost 0; f1 -> [f4 > f5]; \
                  derived f4; f4 <= f0 f3; f4 <= f2; goal f2 f4 f5";
     let grounded = Draft::parse(draft).grounded();
-    let groups = [vec![FactId(0), FactId(1)]];
+    let groups = [vec![FactId(0), FactId(1)], vec![FactId(1), FactId(2)]];
     let encoded = encode(&grounded, &groups, &Limits::default()).expect("nobody asked to stop");
     let names = Names {
         predicates: ["here", "there", "seen", "lit", "Known", "done"]
