@@ -13,6 +13,7 @@ mod strata;
 mod derive;
 
 use std::borrow::Cow;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
 use rust_decimal::Decimal;
@@ -46,6 +47,7 @@ pub struct Executor<'a> {
     /// What each action asks, prepared when it is first used.
     actions: Vec<OnceLock<Queries>>,
     goal: OnceLock<Query>,
+    work: AtomicU64,
 }
 
 #[derive(Debug)]
@@ -101,6 +103,7 @@ impl<'a> Executor<'a> {
             values: values.collect(),
             actions: domain.actions.iter().map(|_| OnceLock::new()).collect(),
             goal: OnceLock::new(),
+            work: AtomicU64::new(0),
         })
     }
 
@@ -356,6 +359,15 @@ impl<'a> Executor<'a> {
 
     fn action(&self, id: ActionId) -> &'a Action {
         &self.domain.actions[id.index()]
+    }
+
+    /// How much was evaluated so far, counted in steps of the evaluation: the same on every machine, as time is not.
+    pub(crate) fn work(&self) -> u64 {
+        self.work.load(Ordering::Relaxed)
+    }
+
+    fn worked(&self, steps: u64) {
+        self.work.fetch_add(steps, Ordering::Relaxed);
     }
 
     /// Whether `derived` is derived from facts of `base`, directly or by way of other derived predicates.

@@ -129,6 +129,7 @@ impl Fixpoint<'_> {
                 head.iter().map(|object| object.expect("the parameters are bound by goals")),
             );
         }
+        drop(solutions);
         let (_, at) =
             self.executor.strata().place(axiom.head).expect("the head of an axiom is derived");
         for row in 0..found {

@@ -81,6 +81,16 @@ pub(crate) struct Solutions<'a> {
     frames: Vec<Frame>,
     started: bool,
     tuple: Vec<ObjectId>,
+    /// How many goals were taken up and alternatives tried.
+    work: u64,
+    /// The work after which no more solutions are looked for.
+    limit: u64,
+}
+
+impl Drop for Solutions<'_> {
+    fn drop(&mut self) {
+        self.view.executor.worked(self.work);
+    }
 }
 
 impl<'a> Solutions<'a> {
@@ -111,7 +121,15 @@ impl<'a> Solutions<'a> {
             frames: Vec::new(),
             started: false,
             tuple: Vec::new(),
+            work: 0,
+            limit: u64::MAX,
         }
+    }
+
+    /// Gives up after so much work, as if there were no more solutions.
+    pub(crate) fn within(mut self, limit: u64) -> Self {
+        self.limit = limit;
+        self
     }
 
     /// The binding of the solution that [`Solutions::advance`] came to.
@@ -124,6 +142,10 @@ impl<'a> Solutions<'a> {
         let mut going = !self.started;
         self.started = true;
         loop {
+            self.work += 1;
+            if self.work > self.limit {
+                return false;
+            }
             let progress = if going { self.forward() } else { Progress::Failed };
             match progress {
                 Progress::Going => going = true,

@@ -3,7 +3,7 @@
 use super::words::Words;
 use super::{Place, Run};
 use crate::execute::query::{Goal, Query, Shape, shape};
-use crate::execute::{Executor, bind, ground, value};
+use crate::execute::{bind, ground, value};
 use crate::model::{Fact, Formula, NodeId, ObjectId, Scope};
 use crate::source::Span;
 
@@ -16,8 +16,8 @@ pub(super) const MOST: usize = 20;
 /// How many conditions are evaluated to find them.
 const EVALUATIONS: usize = 10_000;
 
-/// How many states, from the last one back, are asked when a derived fact became what it is.
-const STATES: usize = 500;
+/// How much may be evaluated to find when derived facts became what they are.
+const WORK: u64 = 3_000_000;
 
 /// A part of a condition that is false.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -84,7 +84,9 @@ pub(super) fn parts(run: &Run<'_>, place: Place) -> Vec<Part> {
     };
     let query = Query::new(formula);
     let mut explainer = Explainer { run, scope, formula, query: &query, evaluations: EVALUATIONS };
-    explainer.parts(Goal::Holds(formula.root()), binding, 0)
+    let mut parts = explainer.parts(Goal::Holds(formula.root()), binding, 0);
+    date(run, &mut parts);
+    parts
 }
 
 struct Explainer<'a> {
@@ -188,34 +190,46 @@ impl Explainer<'_> {
         if wanted { What::Missing { fact, since } } else { What::Forbidden { fact, since } }
     }
 
-    /// The last step that made `fact` hold, or not hold if it is `wanted`.
+    /// The last step that made `fact` hold, or not hold if it is `wanted`; nothing of derived facts yet.
     fn since(&self, fact: &Fact, wanted: bool) -> Option<usize> {
-        let Run { executor, history, .. } = self.run;
-        if executor.domain().predicates[fact.predicate.index()].derived {
-            return since_derived(executor, self.run, fact, wanted);
-        }
-        history.iter().rposition(|change| {
+        self.run.history.iter().rposition(|change| {
             let facts = if wanted { &change.deleted } else { &change.added };
             facts.contains(fact)
         })
     }
 }
 
-/// Goes back through the states until the derived fact is no longer what it is in the last one.
-fn since_derived(
-    executor: &Executor<'_>,
-    run: &Run<'_>,
-    fact: &Fact,
-    wanted: bool,
-) -> Option<usize> {
-    let mut state = run.state.clone();
-    for (at, change) in run.history.iter().enumerate().rev().take(STATES) {
-        executor.revert(&mut state, change);
-        if executor.contains(&state, fact) == wanted {
-            return Some(at);
+/// Dates the derived facts among `parts`: goes back through the states until each is no longer what it is in the last one.
+fn date(run: &Run<'_>, parts: &mut [Part]) {
+    let Run { executor, history, .. } = run;
+    let mut open = Vec::new();
+    let mut lists = vec![parts];
+    while let Some(parts) = lists.pop() {
+        for part in parts {
+            match &mut part.what {
+                What::Missing { fact, since } => open.push((fact, since, true)),
+                What::Forbidden { fact, since } => open.push((fact, since, false)),
+                What::Unmet { parts, .. } => lists.push(parts),
+                What::Different { .. } | What::Same { .. } => {}
+            }
         }
     }
-    None
+    open.retain(|(fact, ..)| executor.domain().predicates[fact.predicate.index()].derived);
+    let mut state = run.state.clone();
+    let limit = executor.work() + WORK;
+    for (at, change) in history.iter().enumerate().rev() {
+        if open.is_empty() || executor.work() > limit {
+            return;
+        }
+        executor.revert(&mut state, change);
+        open.retain_mut(|(fact, since, wanted)| {
+            let differs = executor.contains(&state, fact) == *wanted;
+            if differs {
+                **since = Some(at);
+            }
+            !differs
+        });
+    }
 }
 
 fn opposite(goal: Goal) -> Goal {

@@ -2,7 +2,7 @@
 //!
 //! The search goes back from the failing step.
 //! At each position it first tries to move steps, then to insert an instance of an action that makes a false part true.
-//! What it may spend is counted in executed steps, so that the answer is the same on every machine.
+//! What it may spend is counted in steps of the evaluation, so that the answer is the same on every machine.
 
 use rustc_hash::FxHashSet;
 
@@ -12,8 +12,11 @@ use crate::execute::{Executor, State, bind};
 use crate::model::{ActionId, Atom, Fact, ObjectId, Term, VariableId};
 use crate::plan::Step;
 
-/// How many steps the search may execute.
-const STEPS: usize = 20_000;
+/// How much the search may evaluate.
+const WORK: u64 = 10_000_000;
+
+/// How much of it may go into finding the instances of one action at one position.
+const SEARCH: u64 = 100_000;
 
 /// How many instances of one action are tried at one position.
 const INSTANCES: usize = 50;
@@ -52,7 +55,8 @@ pub(super) fn search(run: &Run<'_>, place: Place, parts: &[Part]) -> Repair {
         Place::Goal => steps.len(),
     };
     let executor = run.executor;
-    let mut search = Search { executor, steps, failing, needs, culprits, budget: STEPS };
+    let limit = executor.work() + WORK;
+    let mut search = Search { executor, steps, failing, needs, culprits, limit };
     let mut state = run.state.clone();
     for position in (0..=failing).rev() {
         if let Some(change) = run.history.get(position) {
@@ -62,7 +66,7 @@ pub(super) fn search(run: &Run<'_>, place: Place, parts: &[Part]) -> Repair {
         if let Some(repair) = found {
             return repair;
         }
-        if search.budget == 0 {
+        if search.is_spent() {
             break;
         }
     }
@@ -102,10 +106,15 @@ struct Search<'a> {
     failing: usize,
     needs: Vec<(Fact, bool)>,
     culprits: Vec<usize>,
-    budget: usize,
+    /// The executor's work at which the search ends.
+    limit: u64,
 }
 
 impl Search<'_> {
+    fn is_spent(&self) -> bool {
+        self.executor.work() > self.limit
+    }
+
     /// Tries all moves of which the first change is at `position`, where `state` holds.
     fn moves(&mut self, state: &State, position: usize) -> Option<Repair> {
         let (failing, count) = (self.failing, self.steps.len());
@@ -143,7 +152,7 @@ impl Search<'_> {
         for (fact, wanted) in self.needs.clone() {
             for action in 0..self.executor.domain().actions.len() as u32 {
                 for step in self.instances(state, ActionId(action), (&fact, wanted)) {
-                    if self.budget == 0 {
+                    if self.is_spent() {
                         return None;
                     }
                     if !seen.insert(step.clone()) {
@@ -163,9 +172,7 @@ impl Search<'_> {
     fn goes_through<'s>(&mut self, state: &State, steps: impl Iterator<Item = &'s Step>) -> bool {
         let mut state = state.clone();
         for step in steps {
-            let Some(budget) = self.budget.checked_sub(1) else { return false };
-            self.budget = budget;
-            if !self.executor.applicable(&state, step) {
+            if self.is_spent() || !self.executor.applicable(&state, step) {
                 return false;
             }
             self.executor.apply(&mut state, step);
@@ -235,7 +242,8 @@ impl Search<'_> {
             goals.push(Goal::Holds(action.precondition.root()));
             let query = Query::new(&action.precondition);
             let formula = (&action.precondition, &query);
-            let mut solutions = self.executor.solutions(state, scope, formula, binding, goals);
+            let mut solutions =
+                self.executor.solutions(state, scope, formula, binding, goals).within(SEARCH);
             let mut found = 0;
             while found < INSTANCES && solutions.advance() {
                 let parameters = &solutions.binding()[..scope.parameters as usize];
