@@ -11,6 +11,8 @@ mod solutions;
 mod state;
 mod strata;
 mod derive;
+#[cfg(test)]
+mod tests;
 
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicU64, Ordering};
