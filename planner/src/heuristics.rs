@@ -86,6 +86,9 @@ pub trait Heuristic {
         self.evaluate(values)
     }
 
+    /// Adapts to the task, given states like those that will be evaluated, the initial one first.
+    fn tune(&mut self, _samples: &[Vec<u32>]) {}
+
     /// The estimate of every state that is no goal, if they all have the same.
     fn constant(&self) -> Option<u32> {
         None
@@ -111,7 +114,8 @@ pub enum Kind {
 
 impl Kind {
     /// All, in the order of [`list`].
-    pub const ALL: [Self; 6] = [Self::Blind, Self::GoalCount, Self::Hmax, Self::Hadd, Self::Ff, Self::LmCut];
+    pub const ALL: [Self; 6] =
+        [Self::Blind, Self::GoalCount, Self::Hmax, Self::Hadd, Self::Ff, Self::LmCut];
 
     /// What may be relied on.
     pub fn profile(self) -> Profile {

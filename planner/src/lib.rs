@@ -12,6 +12,7 @@ pub mod sas;
 pub mod state;
 pub mod successor;
 pub mod axioms;
+pub mod random;
 pub mod segmented;
 pub mod registry;
 pub mod space;

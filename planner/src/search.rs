@@ -15,6 +15,7 @@ use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
 use crate::heuristics::{Costs, DEAD_END, Kind};
 use crate::limits::{Limits, Stop};
+use crate::random::Random;
 use crate::registry::StateId;
 use crate::space::Space;
 use crate::task::{OperatorId, Task};
@@ -135,6 +136,10 @@ pub fn choose(_task: &Task, strategy: Strategy) -> Strategy {
     }
 }
 
+/// How many states a heuristic is tuned on, and how far from the initial state they are at most.
+const WALKS: usize = 40;
+const STEPS: u64 = 30;
+
 /// Searches for plans. Each plan that is cheaper than those before goes to `on_plan` with its cost.
 pub fn run(
     task: &Task,
@@ -154,6 +159,7 @@ pub fn run(
     let end = match choose(task, config.strategy) {
         Strategy::AStar(kind) => {
             let mut heuristic = kind.build(task, Costs::Metric);
+            heuristic.tune(&space.sample(WALKS, STEPS, &mut Random::new(config.seed)));
             astar::search(&mut space, heuristic.as_mut(), 1, &mut run)
         }
         Strategy::Eager(kind) => {

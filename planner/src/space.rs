@@ -1,6 +1,7 @@
 //! A task goes in; its state space comes out: states by id, their values, their applicable operators, their successors.
 
 use crate::axioms::Evaluator;
+use crate::random::Random;
 use crate::registry::{Registry, StateId};
 use crate::state::{Packer, holds};
 use crate::successor::Successors;
@@ -102,6 +103,34 @@ impl<'t> Space<'t> {
         let goal = self.is_goal(&values);
         self.values = values;
         goal
+    }
+
+    /// States along random walks from the initial state, the initial one first; without registering any. A walk that is stuck ends there.
+    pub fn sample(&mut self, walks: usize, steps: u64, random: &mut Random) -> Vec<Vec<u32>> {
+        let mut initial = self.task.initial_state.clone();
+        if let Some(axioms) = &mut self.axioms {
+            axioms.evaluate(&mut initial);
+        }
+        let mut samples = vec![initial];
+        let mut operators = Vec::new();
+        for _ in 0..walks {
+            let mut values = samples[0].clone();
+            for _ in 0..=random.below(steps) {
+                self.applicable(&values, &mut operators);
+                if operators.is_empty() {
+                    break;
+                }
+                let operator = operators[random.below(operators.len() as u64) as usize];
+                self.packer.pack(&values, &mut self.words);
+                self.packer.apply(self.task, operator, &values, &mut self.words);
+                self.packer.unpack(&self.words, &mut values);
+                if let Some(axioms) = &mut self.axioms {
+                    axioms.evaluate(&mut values);
+                }
+            }
+            samples.push(values);
+        }
+        samples
     }
 
     /// The operators from the initial state to `state`, where `parent` gives the predecessor of each state and the initial state is its own.

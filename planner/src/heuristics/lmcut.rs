@@ -7,11 +7,14 @@
 //! Conditional effects make several rules of one operator, which share one cost: a cut that holds some of them takes the cost off once, for all of them
 //! (Röger, Pommerening and Helmert, ECAI 2014). Axioms are rules that cost nothing. Both keep the sum admissible.
 
+mod graph;
+mod ranking;
+
+use graph::Graph;
+
 use super::queue::Queue;
-use super::relaxed::{AXIOM, Relaxation, Rule};
 use super::{Costs, DEAD_END, Heuristic, Profile};
-use crate::axioms::by_key;
-use crate::task::Task;
+use crate::task::{OperatorId, Task};
 
 /// What may be relied on.
 pub fn profile() -> Profile {
@@ -31,214 +34,303 @@ pub fn profile() -> Profile {
 const NONE: u32 = u32::MAX;
 const UNREACHED: u32 = u32::MAX;
 
-/// What a round knows of a rule.
-#[derive(Debug, Clone, Copy)]
-struct Reached {
-    /// What is left of its cost.
-    cost: u32,
-    /// How many needs are not reached.
-    unsatisfied: u32,
-    /// The need reached last; [`NONE`] while some are not.
-    supporter: u32,
-    supporter_cost: u32,
-}
-
-/// Lists of numbers by number.
-#[derive(Debug, Clone, Default)]
-struct Table {
-    starts: Vec<u32>,
-    items: Vec<u32>,
-}
-
-impl Table {
-    /// Groups pairs by their first part, which is below `keys`.
-    fn new(pairs: &[(u32, u32)], keys: usize) -> Self {
-        let (starts, items) = by_key(pairs, keys);
-        Self { starts, items }
-    }
-
-    #[inline]
-    fn get(&self, key: u32) -> &[u32] {
-        &self.items[self.starts[key as usize] as usize..self.starts[key as usize + 1] as usize]
-    }
-}
+/// In the goal zone.
+const ZONE: u32 = 0;
+/// Reached from the state outside of the zone.
+const BEFORE: u32 = 1;
+/// Not so reached.
+const CUT_OFF: u32 = 2;
+/// Looked at by the backward search under way.
+const VISITED: u32 = 3;
+/// How many numbers a round takes.
+const ROUND: u32 = 4;
 
 /// See the module.
 #[derive(Debug, Clone)]
 pub struct LmCut {
-    offsets: Vec<u32>,
-    /// The fact that stands for the whole goal.
-    goal: u32,
-    /// The fact that rules without needs get, which always holds.
-    always: u32,
-    needs: Table,
-    adds: Table,
-    /// For each fact the rules that need it, and those that add it.
-    users: Table,
-    achievers: Table,
-    /// For each rule the operator-like thing whose cost it shares, and the rules of each.
-    group_of: Vec<u32>,
-    groups: Table,
-    shares: bool,
-    start: Vec<Reached>,
-    rules: Vec<Reached>,
+    graph: Graph,
+    /// For each rule what is left of its cost, how many needs are not reached, the need reached last ([`NONE`] while some are not) and its hmax.
+    left: Vec<u32>,
+    unsatisfied: Vec<u32>,
+    supporters: Vec<u32>,
+    supporter_costs: Vec<u32>,
+    /// For each fact its hmax.
     facts: Vec<u32>,
-    /// For each fact the round in which it was found to be in the goal zone (even marks), or before it (odd ones).
+    /// For each fact the last round in which something was found about it: the round's number plus one of the constants above.
     marks: Vec<u32>,
+    rule_marks: Vec<u32>,
     group_marks: Vec<u32>,
     now: u32,
+    /// How many cuts were made, ever.
+    rounds: u64,
     queue: Queue,
     stack: Vec<u32>,
+    visited: Vec<u32>,
     cut: Vec<u32>,
+    parent: Landmarks,
+}
+
+/// The landmarks of the state entered last, of which most hold in its successors too.
+#[derive(Debug, Clone, Default)]
+struct Landmarks {
+    /// The state; taken apart when the first successor is asked for.
+    values: Vec<u32>,
+    is_ready: bool,
+    total: u32,
+    /// What the landmarks leave of each rule's cost.
+    left: Vec<u32>,
+    costs: Vec<u32>,
+    /// For each landmark where its groups begin in `groups`, and the end.
+    starts: Vec<u32>,
+    groups: Vec<u32>,
 }
 
 impl LmCut {
     /// For `task`.
     pub fn new(task: &Task, costs: Costs) -> Self {
-        let relaxation = Relaxation::new(task, costs);
-        let goal = relaxation.facts as u32;
-        let always = goal + 1;
-        let facts = relaxation.facts + 2;
-        let mut rules = relevant(&relaxation);
-        merge(&mut rules);
-        rules.push(Rule { needs: relaxation.goal.clone(), adds: vec![goal], cost: 0, origin: AXIOM });
-        let mut needs = Vec::new();
-        let mut adds = Vec::new();
-        let mut start = Vec::new();
-        let mut group_of = Vec::new();
-        let mut groups = 0;
-        let mut last_origin = AXIOM;
-        for (index, rule) in (0..).zip(&mut rules) {
-            if rule.needs.is_empty() {
-                rule.needs.push(always);
-            }
-            needs.extend(rule.needs.iter().map(|&fact| (index, fact)));
-            adds.extend(rule.adds.iter().map(|&fact| (index, fact)));
-            // Rules of one operator stand side by side.
-            if rule.origin == AXIOM || rule.origin != last_origin {
-                groups += 1;
-            }
-            last_origin = rule.origin;
-            group_of.push(groups - 1);
-            start.push(Reached { cost: rule.cost, unsatisfied: rule.needs.len() as u32, supporter: NONE, supporter_cost: 0 });
-        }
-        let swapped = |pairs: &[(u32, u32)]| pairs.iter().map(|&(rule, fact)| (fact, rule)).collect::<Vec<_>>();
-        let members: Vec<(u32, u32)> = group_of.iter().copied().zip(0..).collect();
+        let graph = Graph::new(task, costs);
+        let (rules, facts, groups) = (graph.costs.len(), graph.facts, graph.groups.len());
         Self {
-            offsets: relaxation.offsets,
-            goal,
-            always,
-            users: Table::new(&swapped(&needs), facts),
-            achievers: Table::new(&swapped(&adds), facts),
-            needs: Table::new(&needs, rules.len()),
-            adds: Table::new(&adds, rules.len()),
-            groups: Table::new(&members, groups as usize),
-            shares: (groups as usize) < rules.len(),
-            group_of,
-            rules: start.clone(),
-            start,
+            graph,
+            left: vec![0; rules],
+            unsatisfied: vec![0; rules],
+            supporters: vec![NONE; rules],
+            supporter_costs: vec![0; rules],
             facts: vec![UNREACHED; facts],
             marks: vec![0; facts],
-            group_marks: vec![0; groups as usize],
+            rule_marks: vec![0; rules],
+            group_marks: vec![0; groups],
             now: 0,
+            rounds: 0,
             queue: Queue::new(),
             stack: Vec::new(),
+            visited: Vec::new(),
             cut: Vec::new(),
+            parent: Landmarks::default(),
         }
     }
 
-    /// hmax from scratch, with the costs that the rules have.
-    fn explore(&mut self, values: &[u32]) {
-        self.facts.fill(UNREACHED);
-        self.queue.clear();
-        for (&offset, &value) in self.offsets.iter().zip(values) {
-            self.facts[(offset + value) as usize] = 0;
-            self.queue.push(0, offset + value);
+    /// LM-cut with what is left of the costs; `on_cut` sees each cut and its cost.
+    fn cuts(&mut self, values: &[u32], mut on_cut: impl FnMut(&Graph, &[u32], u32)) -> u32 {
+        self.explore(values);
+        if self.facts[self.graph.goal as usize] == UNREACHED {
+            return DEAD_END;
         }
-        self.facts[self.always as usize] = 0;
-        self.queue.push(0, self.always);
-        while let Some((cost, fact)) = self.queue.pop() {
-            if self.facts[fact as usize] < cost {
-                continue;
-            }
-            for &index in self.users.get(fact) {
-                let rule = &mut self.rules[index as usize];
-                rule.unsatisfied -= 1;
-                if rule.unsatisfied == 0 {
-                    rule.supporter = fact;
-                    rule.supporter_cost = cost;
-                    let target = cost.saturating_add(rule.cost).min(UNREACHED - 1);
-                    for &add in self.adds.get(index) {
-                        if target < self.facts[add as usize] {
-                            self.facts[add as usize] = target;
-                            self.queue.push(target, add);
+        let mut total: u32 = 0;
+        while self.facts[self.graph.goal as usize] > 0 {
+            self.tick();
+            self.rounds += 1;
+            self.mark_goal_zone();
+            self.find_cut();
+            let least = self.reduce();
+            on_cut(&self.graph, &self.cut, least);
+            total = total.saturating_add(least).min(DEAD_END - 1);
+        }
+        total
+    }
+
+    /// Finds the landmarks of the state entered last.
+    fn prepare(&mut self) {
+        let mut parent = std::mem::take(&mut self.parent);
+        parent.is_ready = true;
+        parent.costs.clear();
+        parent.starts.clear();
+        parent.groups.clear();
+        self.left.copy_from_slice(&self.graph.costs);
+        parent.total = self.cuts(&parent.values, |graph, cut, cost| {
+            parent.costs.push(cost);
+            parent.starts.push(parent.groups.len() as u32);
+            parent.groups.extend(cut.iter().map(|&rule| graph.group_of[rule as usize]));
+        });
+        parent.starts.push(parent.groups.len() as u32);
+        parent.left.clone_from(&self.left);
+        self.parent = parent;
+    }
+
+    /// Takes over those landmarks of the state entered last that `operator` is not in: they are landmarks of the state after it.
+    /// Gives back the costs that the others took. Returns what the landmarks taken over sum up to.
+    fn inherit(&mut self, operator: OperatorId) -> u32 {
+        self.left.copy_from_slice(&self.parent.left);
+        let own = self.graph.group_of_operator[operator.index()];
+        let mut total = self.parent.total;
+        if own == NONE {
+            return total;
+        }
+        for landmark in 0..self.parent.costs.len() {
+            let range =
+                self.parent.starts[landmark] as usize..self.parent.starts[landmark + 1] as usize;
+            if self.parent.groups[range.clone()].contains(&own) {
+                let cost = self.parent.costs[landmark];
+                total -= cost;
+                self.tick();
+                for &group in &self.parent.groups[range] {
+                    // A cut may hold several rules of a group, whose cost it took once.
+                    if std::mem::replace(&mut self.group_marks[group as usize], self.now)
+                        != self.now
+                    {
+                        for &rule in self.graph.groups.get(group) {
+                            self.left[rule as usize] += cost;
                         }
                     }
                 }
             }
         }
+        total
     }
 
-    /// Marks the facts from which the goal costs nothing.
+    /// Begins a round: marks of earlier ones mean nothing from now on.
+    fn tick(&mut self) {
+        if self.now > u32::MAX - 2 * ROUND {
+            self.marks.fill(0);
+            self.rule_marks.fill(0);
+            self.group_marks.fill(0);
+            self.now = 0;
+        }
+        self.now += ROUND;
+    }
+
+    /// hmax from scratch, with the costs that the rules have.
+    fn explore(&mut self, values: &[u32]) {
+        self.facts.fill(UNREACHED);
+        self.supporters.fill(NONE);
+        self.unsatisfied.copy_from_slice(&self.graph.need_counts);
+        self.queue.clear();
+        for (&offset, &value) in self.graph.offsets.iter().zip(values) {
+            self.facts[(offset + value) as usize] = 0;
+            self.queue.push(0, offset + value);
+        }
+        self.facts[self.graph.always as usize] = 0;
+        self.queue.push(0, self.graph.always);
+        while let Some((cost, fact)) = self.queue.pop() {
+            if self.facts[fact as usize] < cost {
+                continue;
+            }
+            for &rule in self.graph.users.get(fact) {
+                let unsatisfied = &mut self.unsatisfied[rule as usize];
+                *unsatisfied -= 1;
+                if *unsatisfied == 0 {
+                    // Facts come by ascending cost: of the needs that cost as much as this one, the first is the supporter.
+                    let needs = self.graph.needs.get(rule);
+                    self.supporters[rule as usize] = if needs.len() == 1 {
+                        fact
+                    } else {
+                        first_of_cost(needs, &self.facts, cost)
+                    };
+                    self.supporter_costs[rule as usize] = cost;
+                    let target = cost.saturating_add(self.left[rule as usize]).min(UNREACHED - 1);
+                    spread(self.graph.adds.get(rule), target, &mut self.facts, &mut self.queue);
+                }
+            }
+        }
+    }
+
+    /// Marks the facts from which the goal costs nothing, and collects the rules that lead into their zone at a cost.
     fn mark_goal_zone(&mut self) {
-        self.now += 2;
-        self.marks[self.goal as usize] = self.now;
-        self.stack.push(self.goal);
+        self.cut.clear();
+        let zone = self.now + ZONE;
+        self.marks[self.graph.goal as usize] = zone;
+        self.stack.push(self.graph.goal);
         while let Some(fact) = self.stack.pop() {
-            for &index in self.achievers.get(fact) {
-                let rule = &self.rules[index as usize];
-                if rule.cost == 0 && rule.supporter != NONE && self.marks[rule.supporter as usize] != self.now {
-                    self.marks[rule.supporter as usize] = self.now;
-                    self.stack.push(rule.supporter);
+            for &rule in self.graph.achievers.get(fact) {
+                let supporter = self.supporters[rule as usize];
+                if supporter == NONE || self.marks[supporter as usize] == zone {
+                    continue;
+                }
+                if self.left[rule as usize] == 0 {
+                    self.marks[supporter as usize] = zone;
+                    self.stack.push(supporter);
+                } else if self.rule_marks[rule as usize] != self.now {
+                    self.rule_marks[rule as usize] = self.now;
+                    self.cut.push(rule);
                 }
             }
         }
     }
 
-    /// Collects the rules that lead from the state into the goal zone, outside of which their supporters are reached.
-    fn find_cut(&mut self, values: &[u32]) {
-        let (zone, before) = (self.now, self.now + 1);
-        self.cut.clear();
-        self.stack.extend(self.offsets.iter().zip(values).map(|(&offset, &value)| offset + value));
-        self.stack.push(self.always);
-        for &fact in &self.stack {
-            self.marks[fact as usize] = before;
-        }
-        while let Some(fact) = self.stack.pop() {
-            for &index in self.users.get(fact) {
-                if self.rules[index as usize].supporter != fact {
-                    continue;
-                }
-                let adds = self.adds.get(index);
-                if adds.iter().any(|&add| self.marks[add as usize] == zone) {
-                    self.cut.push(index);
-                    continue;
-                }
-                for &add in adds {
-                    if self.marks[add as usize] != before {
-                        self.marks[add as usize] = before;
-                        self.stack.push(add);
-                    }
-                }
+    /// Keeps those collected rules whose supporters are reached from the state outside of the goal zone.
+    fn find_cut(&mut self) {
+        let mut kept = 0;
+        for at in 0..self.cut.len() {
+            let rule = self.cut[at];
+            if self.is_before_zone(self.supporters[rule as usize]) {
+                self.cut[kept] = rule;
+                kept += 1;
             }
         }
+        self.cut.truncate(kept);
+    }
+
+    /// Whether a fact is reached from the state outside of the goal zone.
+    ///
+    /// Every fact of the zone costs at least as much as the goal, so all that is cheaper than the goal is reached outside of it, by its own supporters.
+    /// Of the others it is found out by searching backward for something cheaper.
+    fn is_before_zone(&mut self, fact: u32) -> bool {
+        let goal_cost = self.facts[self.graph.goal as usize];
+        if self.facts[fact as usize] < goal_cost {
+            return true;
+        }
+        if self.marks[fact as usize] >= self.now {
+            return self.marks[fact as usize] == self.now + BEFORE;
+        }
+        self.visited.clear();
+        self.visited.push(fact);
+        self.marks[fact as usize] = self.now + VISITED;
+        let mut next = 0;
+        while next < self.visited.len() {
+            let target = self.visited[next];
+            next += 1;
+            for &rule in self.graph.achievers.get(target) {
+                let supporter = self.supporters[rule as usize];
+                if supporter == NONE {
+                    continue;
+                }
+                let mark = self.marks[supporter as usize];
+                let is_known =
+                    self.facts[supporter as usize] < goal_cost || mark == self.now + BEFORE;
+                // A rule that leads into the zone as well is in the cut already, or behind it.
+                if !is_known && mark >= self.now
+                    || self
+                        .graph
+                        .adds
+                        .get(rule)
+                        .iter()
+                        .any(|&add| self.marks[add as usize] == self.now + ZONE)
+                {
+                    continue;
+                }
+                if is_known {
+                    for &fact in &self.visited {
+                        self.marks[fact as usize] = 0;
+                    }
+                    self.marks[fact as usize] = self.now + BEFORE;
+                    self.marks[target as usize] = self.now + BEFORE;
+                    return true;
+                }
+                self.marks[supporter as usize] = self.now + VISITED;
+                self.visited.push(supporter);
+            }
+        }
+        for &fact in &self.visited {
+            self.marks[fact as usize] = self.now + CUT_OFF;
+        }
+        false
     }
 
     /// Takes the cheapest cost of the cut off all its operators, and repairs hmax. Returns that cost.
     fn reduce(&mut self) -> u32 {
-        let least = self.cut.iter().map(|&index| self.rules[index as usize].cost).min().unwrap_or(0);
+        let least = self.cut.iter().map(|&rule| self.left[rule as usize]).min().unwrap_or(0);
         self.queue.clear();
         for at in 0..self.cut.len() {
-            let index = self.cut[at];
-            if !self.shares {
-                self.cheapen(index, least);
+            let rule = self.cut[at];
+            if !self.graph.shares {
+                self.cheapen(rule, least);
                 continue;
             }
-            let group = self.group_of[index as usize];
+            let group = self.graph.group_of[rule as usize];
             if self.group_marks[group as usize] != self.now {
                 self.group_marks[group as usize] = self.now;
-                for member in self.groups.starts[group as usize]..self.groups.starts[group as usize + 1] {
-                    self.cheapen(self.groups.items[member as usize], least);
+                for member in self.graph.groups.range(group) {
+                    self.cheapen(self.graph.groups.items[member], least);
                 }
             }
         }
@@ -247,140 +339,106 @@ impl LmCut {
     }
 
     #[inline]
-    fn cheapen(&mut self, index: u32, by: u32) {
-        let rule = &mut self.rules[index as usize];
-        rule.cost -= by;
-        if rule.supporter != NONE {
-            let target = rule.supporter_cost + rule.cost;
-            self.spread(index, target);
+    fn cheapen(&mut self, rule: u32, by: u32) {
+        self.left[rule as usize] -= by;
+        if self.supporters[rule as usize] != NONE {
+            let target =
+                self.supporter_costs[rule as usize].saturating_add(self.left[rule as usize]);
+            spread(self.graph.adds.get(rule), target, &mut self.facts, &mut self.queue);
         }
     }
 
-    /// Notes that a rule now reaches its facts at this cost.
-    #[inline]
-    fn spread(&mut self, index: u32, target: u32) {
-        for &add in self.adds.get(index) {
-            if target < self.facts[add as usize] {
-                self.facts[add as usize] = target;
-                self.queue.push(target, add);
-            }
-        }
-    }
-
-    /// Brings supporters and costs up to date after costs fell.
+    /// Brings supporters and costs up to date after costs fell; a goal that costs nothing needs no more of that.
     fn repair(&mut self) {
         while let Some((cost, fact)) = self.queue.pop() {
             if self.facts[fact as usize] < cost {
                 continue;
             }
-            for &index in self.users.get(fact) {
-                let rule = &mut self.rules[index as usize];
-                if rule.supporter != fact || rule.supporter_cost <= cost {
+            if fact == self.graph.goal && cost == 0 {
+                return;
+            }
+            for &rule in self.graph.users.get(fact) {
+                if self.supporters[rule as usize] != fact
+                    || self.supporter_costs[rule as usize] <= cost
+                {
                     continue;
                 }
-                let before = rule.supporter_cost;
-                rule.supporter_cost = cost;
-                let needs = self.needs.get(index);
-                if needs.len() > 1 {
-                    for &need in needs {
-                        if self.facts[need as usize] > rule.supporter_cost {
-                            rule.supporter = need;
-                            rule.supporter_cost = self.facts[need as usize];
-                        }
-                    }
-                }
-                if rule.supporter_cost < before {
-                    let target = rule.supporter_cost + rule.cost;
-                    for &add in self.adds.get(index) {
-                        if target < self.facts[add as usize] {
-                            self.facts[add as usize] = target;
-                            self.queue.push(target, add);
-                        }
-                    }
+                let needs = self.graph.needs.get(rule);
+                let supporter_cost = if needs.len() == 1 {
+                    cost
+                } else {
+                    let (supporter, supporter_cost) = dearest(needs, &self.facts);
+                    self.supporters[rule as usize] = supporter;
+                    supporter_cost
+                };
+                if supporter_cost < self.supporter_costs[rule as usize] {
+                    self.supporter_costs[rule as usize] = supporter_cost;
+                    let target = supporter_cost.saturating_add(self.left[rule as usize]);
+                    spread(self.graph.adds.get(rule), target, &mut self.facts, &mut self.queue);
                 }
             }
+        }
+    }
+}
+
+/// Notes that facts are reached at this cost.
+#[inline]
+fn spread(adds: &[u32], target: u32, facts: &mut [u32], queue: &mut Queue) {
+    for &add in adds {
+        if target < facts[add as usize] {
+            facts[add as usize] = target;
+            queue.push(target, add);
         }
     }
 }
 
 impl Heuristic for LmCut {
     fn evaluate(&mut self, values: &[u32]) -> u32 {
-        self.rules.copy_from_slice(&self.start);
-        self.explore(values);
-        if self.facts[self.goal as usize] == UNREACHED {
-            return DEAD_END;
+        self.left.copy_from_slice(&self.graph.costs);
+        self.cuts(values, |_, _, _| {})
+    }
+
+    fn enter(&mut self, values: &[u32]) {
+        self.parent.values.clear();
+        self.parent.values.extend_from_slice(values);
+        self.parent.is_ready = false;
+    }
+
+    fn evaluate_child(&mut self, operator: OperatorId, values: &[u32]) -> u32 {
+        if !self.parent.is_ready {
+            self.prepare();
         }
-        let mut total: u32 = 0;
-        while self.facts[self.goal as usize] > 0 {
-            if self.now > u32::MAX - 4 {
-                self.marks.fill(0);
-                self.group_marks.fill(0);
-                self.now = 0;
-            }
-            self.mark_goal_zone();
-            self.find_cut(values);
-            total = total.saturating_add(self.reduce()).min(DEAD_END - 1);
+        let inherited = self.inherit(operator);
+        match self.cuts(values, |_, _, _| {}) {
+            DEAD_END => DEAD_END,
+            rest => inherited.saturating_add(rest).min(DEAD_END - 1),
         }
-        total
+    }
+
+    fn tune(&mut self, samples: &[Vec<u32>]) {
+        ranking::choose(self, samples);
     }
 }
 
-/// The rules that help towards the goal, with the additions that do.
-fn relevant(relaxation: &Relaxation) -> Vec<Rule> {
-    let mut adders = vec![Vec::new(); relaxation.facts];
-    for (index, rule) in relaxation.rules.iter().enumerate() {
-        for &fact in &rule.adds {
-            adders[fact as usize].push(index);
-        }
-    }
-    let mut is_relevant = vec![false; relaxation.facts];
-    let mut stack = Vec::new();
-    let mut demand = |facts: &[u32], stack: &mut Vec<u32>| {
-        for &fact in facts {
-            if !std::mem::replace(&mut is_relevant[fact as usize], true) {
-                stack.push(fact);
-            }
-        }
-    };
-    demand(&relaxation.goal, &mut stack);
-    while let Some(fact) = stack.pop() {
-        for index in std::mem::take(&mut adders[fact as usize]) {
-            demand(&relaxation.rules[index].needs, &mut stack);
-        }
-    }
-    let mut rules = relaxation.rules.clone();
-    for rule in &mut rules {
-        rule.adds.retain(|&fact| is_relevant[fact as usize]);
-    }
-    rules.retain(|rule| !rule.adds.is_empty());
-    rules
+/// The first of `needs` that has this cost.
+#[inline]
+fn first_of_cost(needs: &[u32], facts: &[u32], cost: u32) -> u32 {
+    needs
+        .iter()
+        .copied()
+        .find(|&need| facts[need as usize] == cost)
+        .expect("the need that was reached last has this cost")
 }
 
-/// Of operators that are one rule each, with equal needs and additions, keeps the cheapest, the first of equals.
-fn merge(rules: &mut Vec<Rule>) {
-    let mut order: Vec<usize> = (0..rules.len()).collect();
-    let mut is_single = vec![true; rules.len()];
-    for index in 1..rules.len() {
-        if rules[index].origin != AXIOM && rules[index].origin == rules[index - 1].origin {
-            is_single[index] = false;
-            is_single[index - 1] = false;
+/// The first of `needs` with the largest cost, and that cost.
+#[inline]
+fn dearest(needs: &[u32], facts: &[u32]) -> (u32, u32) {
+    let mut dearest = (needs[0], facts[needs[0] as usize]);
+    for &need in &needs[1..] {
+        let cost = facts[need as usize];
+        if cost > dearest.1 {
+            dearest = (need, cost);
         }
     }
-    order.sort_by(|&a, &b| {
-        let key = |index: usize| (&rules[index].needs, &rules[index].adds, rules[index].cost, index);
-        key(a).cmp(&key(b))
-    });
-    let mut keep = vec![true; rules.len()];
-    let mut first: Option<usize> = None;
-    for index in order {
-        if !is_single[index] {
-            continue;
-        }
-        match first {
-            Some(winner) if rules[winner].needs == rules[index].needs && rules[winner].adds == rules[index].adds => keep[index] = false,
-            _ => first = Some(index),
-        }
-    }
-    let mut keep = keep.into_iter();
-    rules.retain(|_| keep.next() == Some(true));
+    dearest
 }

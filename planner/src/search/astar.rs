@@ -27,20 +27,32 @@ pub fn profile() -> Profile {
 struct Frontier {
     nodes: Nodes,
     open: Open<u32>,
-    /// Estimates by state, unless the heuristic is constant.
+    /// Estimates by state; empty where the heuristic is constant.
     estimates: Segmented<u32>,
     weight: u32,
 }
 
 impl Frontier {
+    #[inline]
     fn push(&mut self, state: StateId, cost: u32, estimate: u32) {
         self.open
             .push((cost.saturating_add(estimate.saturating_mul(self.weight)), estimate), state.0);
     }
+
+    /// The estimate of a known state; `None` if it is still to be evaluated.
+    #[inline]
+    fn estimate(&self, space: &mut Space, state: StateId, constant: Option<u32>) -> Option<u32> {
+        match constant {
+            Some(constant) => Some(if space.is_goal_state(state) { 0 } else { constant }),
+            None => {
+                (state.index() < self.estimates.len()).then(|| self.estimates.get(state.index()))
+            }
+        }
+    }
 }
 
-/// Runs until a plan is found. States whose cost plus estimate reach that of a plan found before are left out; with a weight that is sound only
-/// for admissible heuristics, which the caller sees to.
+/// Runs until a plan is found. States whose cost reaches that of a plan found before are left out, and so are those whose estimate added to it does,
+/// if the heuristic is admissible.
 pub(super) fn search(
     space: &mut Space,
     heuristic: &mut dyn Heuristic,
@@ -53,9 +65,11 @@ pub(super) fn search(
         estimates: Segmented::new(0),
         weight,
     };
-    let mut values = space.task().initial_state.clone();
+    let task = space.task();
+    let mut values = task.initial_state.clone();
     let mut child_values = values.clone();
     let mut operators: Vec<OperatorId> = Vec::new();
+    let mut fresh: Vec<(StateId, OperatorId)> = Vec::new();
     let constant = heuristic.constant();
     let initial = space.initial();
     space.load(initial, &mut values);
@@ -70,7 +84,7 @@ pub(super) fn search(
     }
     frontier.push(initial, 0, estimate);
     let mut bound = 0;
-    while let Some(((f, _), state)) = frontier.open.pop() {
+    while let Some(((f, own_estimate), state)) = frontier.open.pop() {
         let state = StateId(state);
         let node = frontier.nodes.get(state);
         if node.status != Status::Open {
@@ -91,13 +105,10 @@ pub(super) fn search(
         }
         run.statistics.expanded += 1;
         space.applicable(&values, &mut operators);
-        heuristic.enter(&values);
-        let own_estimate =
-            if constant.is_none() { frontier.estimates.get(state.index()) } else { 0 };
+        fresh.clear();
         for &operator in &operators {
             run.statistics.generated += 1;
-            let operator_cost = space.task().operators[operator.index()].cost;
-            let cost = node.cost.saturating_add(operator_cost);
+            let cost = node.cost.saturating_add(task.operators[operator.index()].cost);
             if cost > MOST_COST {
                 run.overflow = true;
                 continue;
@@ -107,46 +118,49 @@ pub(super) fn search(
             }
             let (child, is_new) = space.successor(state, &values, operator);
             if is_new {
-                let estimate = if let Some(constant) = constant {
-                    if space.is_goal_state(child) { 0 } else { constant }
-                } else {
-                    if run.limits.stopped().is_some() {
-                        break;
-                    }
-                    space.load(child, &mut child_values);
-                    run.statistics.evaluated += 1;
-                    let estimate = heuristic.evaluate_child(operator, &child_values);
-                    let estimate = if weight == 1 {
-                        estimate.max(own_estimate.saturating_sub(operator_cost))
-                    } else {
-                        estimate
-                    };
-                    frontier.estimates.push(estimate);
-                    estimate
-                };
-                if estimate == DEAD_END {
-                    run.statistics.dead_ends += 1;
-                    frontier
-                        .nodes
-                        .set(child, Node { status: Status::DeadEnd, cost, parent: state });
-                } else {
-                    frontier.nodes.set(child, Node { status: Status::Open, cost, parent: state });
-                    frontier.push(child, cost, estimate);
-                }
+                frontier.nodes.set(child, Node { status: Status::Open, cost, parent: state });
+                fresh.push((child, operator));
                 continue;
             }
             let known = frontier.nodes.get(child);
             if known.status != Status::DeadEnd && cost < known.cost {
-                if known.status == Status::Closed {
-                    run.statistics.reopened += 1;
-                }
-                let estimate = match constant {
-                    Some(constant) if !space.is_goal_state(child) => constant,
-                    Some(_) => 0,
-                    None => frontier.estimates.get(child.index()),
-                };
+                run.statistics.reopened += u64::from(known.status == Status::Closed);
                 frontier.nodes.set(child, Node { status: Status::Open, cost, parent: state });
-                frontier.push(child, cost, estimate);
+                if let Some(estimate) = frontier.estimate(space, child, constant) {
+                    frontier.push(child, cost, estimate);
+                }
+            }
+        }
+        // Evaluated together: a heuristic may share work among successors, which pays from two on.
+        let shares = fresh.len() > 1 && constant.is_none();
+        if shares {
+            heuristic.enter(&values);
+        }
+        for &(child, operator) in &fresh {
+            let estimate = if let Some(estimate) = frontier.estimate(space, child, constant) {
+                estimate
+            } else {
+                if let Some(end) = run.stopped(space) {
+                    return end;
+                }
+                space.load(child, &mut child_values);
+                run.statistics.evaluated += 1;
+                let estimate = if shares {
+                    heuristic.evaluate_child(operator, &child_values)
+                } else {
+                    heuristic.evaluate(&child_values)
+                };
+                let least = own_estimate.saturating_sub(task.operators[operator.index()].cost);
+                let estimate = if weight == 1 { estimate.max(least) } else { estimate };
+                frontier.estimates.push(estimate);
+                estimate
+            };
+            let node = frontier.nodes.get(child);
+            if estimate == DEAD_END {
+                run.statistics.dead_ends += 1;
+                frontier.nodes.set(child, Node { status: Status::DeadEnd, ..node });
+            } else {
+                frontier.push(child, node.cost, estimate);
             }
         }
     }
