@@ -9,8 +9,9 @@ fn work(goal: &str) -> (u64, bool) {
         (:predicates (edge ?x ?y) (mark ?x) (path ?x ?y) (pair ?x ?y))
         (:derived (path ?x ?y) (or (edge ?x ?y) (exists (?z) (and (edge ?x ?z) (path ?z ?y)))))
         (:derived (pair ?x ?y) (not (edge ?x ?y))))";
-    let objects: String = (0..300).map(|at| format!(" n{at}")).collect();
-    let edges: String = (0..299).map(|at| format!(" (edge n{at} n{})", at + 1)).collect();
+    let objects = (0..300).map(|at| format!("n{at}")).collect::<Vec<_>>().join(" ");
+    let edges =
+        (0..299).map(|at| format!("(edge n{at} n{})", at + 1)).collect::<Vec<_>>().join(" ");
     let problem = format!(
         "(define (problem p) (:domain row) (:objects {objects}) (:init {edges} (mark n150)) (:goal {goal}))"
     );
