@@ -1,8 +1,11 @@
-//! The reference domains go in; each file must check without a word.
+//! The reference domains go through the whole program: they check without a word, and plans have the known costs.
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use cli::exit::Exit;
+use cli::terminal::Terminal;
 use lang::render;
 use lang::source::{SourceId, Sources};
 
@@ -33,10 +36,88 @@ fn add(sources: &mut Sources, path: &Path) -> SourceId {
     sources.add(path.display().to_string(), text)
 }
 
+/// Plans every problem of a domain, optimally and as fast as possible, and compares with what is known.
+fn plan(name: &str) {
+    let folder = tempfile::tempdir().expect("there is room for a plan");
+    let file = folder.path().join("plan");
+    for (problem, known) in problems(name) {
+        let optimal = cost(&problem, &file, true);
+        let first = cost(&problem, &file, false);
+        match (known, optimal, first) {
+            (Known::Unsolvable, None, None) => {}
+            (Known::Open, Some(optimal), Some(first)) => assert!(optimal <= first, "{name}"),
+            (Known::Cost(known), Some(optimal), Some(first)) => {
+                assert_eq!(optimal, known, "{}", problem.display());
+                assert!(
+                    first >= known,
+                    "{}: a plan of cost {first} beats the proof",
+                    problem.display()
+                );
+            }
+            unexpected => panic!("{}: known, optimal, first: {unexpected:?}", problem.display()),
+        }
+    }
+}
+
+/// The cost of the plan that the program finds and its own validator accepts; `None` where there is no plan.
+fn cost(problem: &Path, file: &Path, optimal: bool) -> Option<u64> {
+    let file_name = file.to_str().expect("the name is ours");
+    let options: &[&str] = &["--plan-file", file_name, "--optimal"];
+    let (exit, said) = caveat("plan", &options[..if optimal { 3 } else { 2 }], &[problem]);
+    match exit {
+        Exit::Done => {}
+        Exit::Unreachable | Exit::Exhausted => return None,
+        other => panic!("{}: {other:?}\n{said}", problem.display()),
+    }
+    let (exit, said) = caveat("validate", &[], &[problem, file]);
+    assert_eq!(exit, Exit::Done, "{}: {said}", problem.display());
+    let plan = fs::read_to_string(file).expect("the plan was written");
+    let cost = plan
+        .lines()
+        .find_map(|line| line.strip_prefix("; cost = "))
+        .and_then(|rest| rest.split(' ').next())
+        .unwrap_or_else(|| panic!("{}: the plan file states no cost:\n{plan}", problem.display()));
+    Some(cost.parse().expect("costs are integers"))
+}
+
+macro_rules! known_costs {
+    ($($name:ident)*) => {$(
+        #[test]
+        fn $name() {
+            super::plan(stringify!($name));
+        }
+    )*
+        const NAMES: &[&str] = &[$(stringify!($name)),*];
+    };
+}
+
+mod plans_have_the_known_cost {
+    known_costs! { stacking hanoi keys delivery kitchen drawers circuits museum }
+
+    #[test]
+    fn in_every_domain() {
+        assert_eq!(NAMES, domains::NAMES);
+    }
+}
+
 /// The problems of a domain, with what is known of each.
 fn problems(name: &str) -> impl Iterator<Item = (PathBuf, Known)> {
     let folder = domains::folder().join(name);
     costs::read(name)
         .into_iter()
         .map(move |(problem, known)| (folder.join(problem).with_extension("pddl"), known))
+}
+
+/// Runs one verb in this process; what it printed and said comes back as one text.
+fn caveat(verb: &str, options: &[&str], files: &[&Path]) -> (Exit, String) {
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let mut terminal = Terminal::new(&mut out, &mut err);
+    let arguments = ["caveat", verb, "--output-format", "concise"]
+        .into_iter()
+        .chain(options.iter().copied())
+        .map(OsString::from)
+        .chain(files.iter().map(|file| file.as_os_str().to_owned()));
+    let exit = cli::call(arguments, &mut terminal);
+    out.extend(err);
+    (exit, String::from_utf8(out).expect("the program prints UTF-8"))
 }
