@@ -57,8 +57,9 @@ impl<'a> Terminal<'a> {
         self.data(format_args!("{text}\n"));
     }
 
-    /// Writes a line of talk. Nothing can be said about a failure here, and nothing depends on it.
+    /// Writes a line of talk, after the data written so far. Nothing can be said about a failure here, and nothing depends on it.
     pub fn say(&mut self, text: impl fmt::Display) {
+        self.flush();
         let _ = writeln!(self.err, "{text}");
     }
 
