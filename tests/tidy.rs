@@ -98,6 +98,32 @@ fn source_files_are_short_and_open_with_what_goes_in_and_out() {
 }
 
 #[test]
+fn only_the_command_line_meets_the_world() {
+    let world =
+        ["std::fs", "std::env", "io::std", "std::time", "std::process", "print!(", "println!("];
+    let mut wrong = Vec::new();
+    for name in ["lang", "planner", "learner", "causal"] {
+        for file in rust_files(&root().join(name).join("src")) {
+            let shown = file.strip_prefix(root()).expect("the file lies in the repository");
+            if shown
+                .components()
+                .any(|part| part.as_os_str().to_string_lossy().starts_with("tests"))
+            {
+                continue;
+            }
+            let text = fs::read_to_string(&file).expect("source files are UTF-8");
+            let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+            for line in code.lines().filter(|line| !line.trim_start().starts_with("//")) {
+                for thing in world.iter().filter(|thing| line.contains(**thing)) {
+                    wrong.push(format!("{} uses {thing}", shown.display()));
+                }
+            }
+        }
+    }
+    assert_eq!(wrong, [""; 0]);
+}
+
+#[test]
 fn each_reference_domain_has_its_page_and_the_cost_of_every_problem() {
     let folders: BTreeSet<String> = entries(&domains::folder())
         .into_iter()
