@@ -3,6 +3,7 @@
 //! A run that does not come to rest soon after the flag is set is ended from here, with the same exit code and with whole files.
 
 use std::fs;
+use std::io::{self, Write};
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
@@ -152,6 +153,7 @@ fn exit(shared: &Shared, reason: Stop) -> Exit {
 /// Ends the process, once no file is half written.
 fn end(shared: &Shared, reason: Stop) {
     let _files = shared.files.lock().unwrap_or_else(PoisonError::into_inner);
+    let _ = writeln!(io::stderr(), "error: ended, since it did not come to rest when told to stop");
     process::exit(i32::from(exit(shared, reason).code()));
 }
 
@@ -187,6 +189,7 @@ mod tests {
     use super::{Allowance, Watch, cpu_time, peak_memory, resident};
     use crate::exit::Exit;
     use planner::limits::Stop;
+    use std::process::{Command, Stdio};
     use std::time::{Duration, Instant};
 
     fn wait(watch: &Watch) -> Option<Stop> {
@@ -209,6 +212,29 @@ mod tests {
     fn the_flag_is_set_when_memory_is_used_up() {
         let watch = Watch::start(Allowance { time: None, memory: Some(1) }, false);
         assert_eq!(wait(&watch), Some(Stop::Memory));
+    }
+
+    /// Runs itself as a process of its own, in which the flag is ignored.
+    #[test]
+    fn a_run_that_ignores_the_flag_is_ended() {
+        if std::env::var_os("CAVEAT_TEST_IGNORES_THE_FLAG").is_some() {
+            let _watch = Watch::start(Allowance { time: None, memory: Some(1) }, true);
+            let start = Instant::now();
+            while start.elapsed() < Duration::from_mins(1) {
+                std::hint::spin_loop();
+            }
+            return;
+        }
+        let status = Command::new(std::env::current_exe().expect("a test knows its binary"))
+            .args(["--exact", "limits::tests::a_run_that_ignores_the_flag_is_ended"])
+            .env("CAVEAT_TEST_IGNORES_THE_FLAG", "1")
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .status();
+        assert_eq!(
+            status.expect("it can be run").code(),
+            Some(i32::from(Exit::GroundMemory.code()))
+        );
     }
 
     #[test]
