@@ -100,9 +100,9 @@ impl<'d> Report<'d> {
 
     /// Says once for each requirement that something needs it.
     fn need(&mut self, need: Need, span: Span) {
-        let (flags, name, what) = need.describe();
+        let (flags, proposed, name, what) = need.describe();
         if !self.declared.meets(flags) && !self.missing.meets(flags) {
-            self.missing.add(flags);
+            self.missing.add(proposed);
             self.push(missing_requirement::missing_requirement(name, span, what));
         }
     }

@@ -38,6 +38,7 @@ pub mod disjunctive_effect;
 pub mod when_in_condition;
 pub mod unstratified_axioms;
 pub mod uninitialised_function;
+pub mod derived_effect;
 pub mod variable_in_init;
 pub mod agent_without_multi_agent;
 pub mod plan_syntax;
@@ -48,6 +49,9 @@ pub mod plan_type_mismatch;
 pub mod plan_step_order;
 pub mod plan_step_fails;
 pub mod plan_misses_goal;
+
+#[cfg(test)]
+pub(crate) mod fixture;
 
 /// All kinds, in the order of their numbers.
 pub const RULES: &[Rule] = &[
@@ -85,6 +89,7 @@ pub const RULES: &[Rule] = &[
     when_in_condition::RULE,
     unstratified_axioms::RULE,
     uninitialised_function::RULE,
+    derived_effect::RULE,
     variable_in_init::RULE,
     agent_without_multi_agent::RULE,
     plan_syntax::RULE,

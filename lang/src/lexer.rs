@@ -65,6 +65,11 @@ fn is_plain(byte: u8) -> bool {
         && !matches!(byte, b'"' | b'\'' | b'`' | b',' | b'{' | b'}' | b'[' | b']' | b'\\')
 }
 
+/// Whether a word has no character that would be reported.
+pub fn is_plain_text(text: &str) -> bool {
+    text.bytes().all(is_plain)
+}
+
 /// Reports each character that has no place in PDDL, at its first appearance outside comments.
 pub fn check_characters(
     source: SourceId,

@@ -54,7 +54,9 @@ impl Printer {
     /// `(KEYWORD WORD …)`
     fn words(&mut self, keyword: &str, words: &[Name<'_>]) {
         write!(self.text, "({keyword}").expect("a string takes all");
-        words.iter().for_each(|word| self.word(word.text));
+        for word in words {
+            self.word(word.text);
+        }
         self.text.push(')');
     }
 
@@ -224,7 +226,7 @@ impl Printer {
     fn node(&mut self, node: &Node<'_>, formula: &Formula<'_>) -> bool {
         match &node.kind {
             NodeKind::Atom(atom) | NodeKind::Equal(atom) => {
-                self.words(atom.name.text, formula.arguments(atom))
+                self.words(atom.name.text, formula.arguments(atom));
             }
             NodeKind::Connective(connective) => {
                 write!(self.text, "({}", connective.word()).expect("a string takes all");

@@ -12,7 +12,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Severity};
 use crate::source::{SourceId, Sources, Span};
 
 /// Lines longer than this many bytes are cut around what is marked.
-const LONG: usize = 160;
+const LONG: usize = 110;
 
 /// Of more diagnostics than this, only so many are shown in full: nobody reads them all.
 const SHOWN: usize = 100;
@@ -104,7 +104,20 @@ fn block(
         group = group.element(Level::HELP.message(help));
     }
     let report: [Group<'_>; 1] = [group];
-    renderer.render(&report)
+    let text = renderer.render(&report);
+    if !pieces.iter().any(|piece| piece.shortened) {
+        return text;
+    }
+    // Between the place and the lines the renderer puts the header of a snippet without a path.
+    text.split_inclusive('\n').filter(|line| without_escapes(line).trim() != ":::").collect()
+}
+
+/// A line without its colours.
+fn without_escapes(line: &str) -> String {
+    let mut pieces = line.split('\u{1b}');
+    let first = pieces.next().unwrap_or("");
+    let rest = pieces.map(|piece| piece.split_once('m').map_or("", |(_, text)| text));
+    std::iter::once(first).chain(rest).collect()
 }
 
 /// A mark in a line.

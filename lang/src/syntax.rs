@@ -7,6 +7,7 @@ mod problem;
 
 use crate::ast::{Feature, Name, Place, Unread};
 use crate::diagnostic::{Diagnostics, not_a_pddl_file, unexpected_item};
+use crate::lexer;
 use crate::source::Span;
 use crate::tree::{NodeId, Tree};
 
@@ -47,6 +48,10 @@ impl<'a> Reader<'a, '_> {
 
     /// Says that something else is expected where the node stands.
     fn unexpected(&mut self, expected: &str, id: NodeId) {
+        if !self.tree.is_list(id) && !lexer::is_plain_text(self.tree.slice(id)) {
+            // Its characters have been reported already.
+            return;
+        }
         let span = self.opening(id);
         self.diagnostics.push(unexpected_item::unexpected_item(expected, span));
     }

@@ -158,7 +158,9 @@ fn flatten(shape: &Shape, formula: &mut Formula<'static>) {
         }
     };
     formula.nodes.push(Node { kind, next: 0, place: Place::default(), keyword: Place::default() });
-    children.iter().for_each(|child| flatten(child, formula));
+    for child in children {
+        flatten(child, formula);
+    }
     formula.nodes[index].next = formula.nodes.len() as u32;
 }
 

@@ -111,7 +111,7 @@ fn deep_nesting_is_read_in_linear_time() {
         read(&"(".repeat(DEPTH), &")".repeat(DEPTH));
         read(&"(define (domain d) (:action ".repeat(DEPTH / 10), &"(:init".repeat(DEPTH));
         let time = start.elapsed();
-        assert!(time < Duration::from_secs(60), "it took {time:?}");
+        assert!(time < Duration::from_mins(1), "it took {time:?}");
     });
 }
 

@@ -145,7 +145,6 @@ impl<'a> Condition<'_, '_, '_, 'a> {
             Connective::Or | Connective::Imply => Need::Disjunction,
             Connective::Not => match formula.nodes.get(at + 1).map(|node| &node.kind) {
                 Some(Ast::Atom(_)) => Need::Negation,
-                Some(Ast::Equal(_)) => Need::Equality,
                 Some(Ast::Connective(_)) => Need::Disjunction,
                 _ => return,
             },

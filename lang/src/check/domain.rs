@@ -5,7 +5,7 @@ use super::requirement::{self, Need};
 use super::scope::{self, Bindings};
 use super::{Names, Report, World, condition, effect, hierarchy, name};
 use crate::ast::{self, DomainSection, Head, Name, TypedList};
-use crate::diagnostic::{Diagnostics, duplicate_definition, unused_parameter};
+use crate::diagnostic::{Diagnostics, derived_effect, duplicate_definition, unused_parameter};
 use crate::model::{Action, Axiom, Domain, Formula, Function, Object, Predicate, Variable};
 use crate::source::Span;
 
@@ -67,11 +67,28 @@ pub fn domain(ast: &ast::Domain<'_>, diagnostics: &mut Diagnostics) -> Domain {
     for axiom in &axioms {
         domain.predicates[axiom.head.index()].derived = true;
     }
+    changed_derived(&domain, &axioms, &actions, &mut report);
     (domain.axioms, domain.actions) = (axioms, actions);
     domain
 }
 
-fn report_duplicate(
+/// Reports effects on predicates that are derived.
+fn changed_derived(domain: &Domain, axioms: &[Axiom], actions: &[Action], report: &mut Report<'_>) {
+    for action in actions {
+        for literal in action.effects.iter().flat_map(|effect| &effect.literals) {
+            let predicate = &domain.predicates[literal.atom.predicate.index()];
+            let rule = axioms
+                .iter()
+                .find(|axiom| predicate.derived && axiom.head == literal.atom.predicate);
+            if let Some(rule) = rule {
+                let (action, name) = (&action.name.text, &predicate.name.text);
+                report.push(derived_effect::derived_effect(action, name, literal.span, rule.span));
+            }
+        }
+    }
+}
+
+pub(super) fn report_duplicate(
     what: &str,
     again: Name<'_>,
     detail: &str,

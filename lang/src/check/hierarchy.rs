@@ -32,7 +32,8 @@ pub(super) fn build<'a>(
     };
     for (spelling, above) in lists.iter().flat_map(|list| list.entries()) {
         let id = declare(spelling, &mut types);
-        for &parent in above.map_or(&[][..], |above| &above.names) {
+        let above = above.map_or(&[][..], |above| &above.names);
+        for &parent in above.iter().filter(|parent| !parent.text.is_empty()) {
             let parent = declare(parent, &mut types);
             // What stands above `object` is of no use: everything is an object.
             if id != OBJECT && !types[id.index()].parents.contains(&parent) {
@@ -128,7 +129,7 @@ pub(super) fn resolve(
             continue;
         }
         unknown = true;
-        if report.first(&unknown_type::RULE, spelling.text) {
+        if !spelling.text.is_empty() && report.first(&unknown_type::RULE, spelling.text) {
             let near = report.nearest(spelling.text, index);
             report.push(unknown_type::unknown_type(spelling.text, spelling.span, place, near));
         }

@@ -1,6 +1,7 @@
 //! Problems.
 
 use hashbrown::HashTable;
+use hashbrown::hash_table::Entry;
 use rust_decimal::Decimal;
 use rustc_hash::FxHasher;
 
@@ -93,7 +94,7 @@ fn contents<'a>(
     problem: &mut Problem,
     report: &mut Report<'_>,
 ) {
-    let mut state = State { seen: HashTable::new(), world, report };
+    let mut state = State { seen: HashTable::new(), valued: HashTable::new(), world, report };
     let mut goal = None;
     let mut metric = None;
     for section in &ast.sections {
@@ -153,6 +154,8 @@ fn read_metric(
 struct State<'c, 'w, 'd, 'a> {
     /// The facts by their position, to drop repetitions.
     seen: HashTable<u32>,
+    /// The values of functions by their position, likewise.
+    valued: HashTable<u32>,
     world: &'c World<'w, 'a>,
     report: &'c mut Report<'d>,
 }
@@ -183,7 +186,8 @@ impl<'a> State<'_, '_, '_, 'a> {
                         continue;
                     };
                     if let Some(arguments) = arguments {
-                        problem.values.push(FunctionValue { function: id, arguments, value, span });
+                        let value = FunctionValue { function: id, arguments, value, span };
+                        self.set(function.name, value, &mut problem.values);
                     }
                 }
                 EntryKind::Unread(unread) => self.report.unsupported(unread),
@@ -195,11 +199,47 @@ impl<'a> State<'_, '_, '_, 'a> {
         let id = facts.len() as u32;
         let same = |&other: &u32| facts[other as usize] == fact;
         let rehash = |&other: &u32| hash(&facts[other as usize]);
-        if let hashbrown::hash_table::Entry::Vacant(entry) =
-            self.seen.entry(hash(&fact), same, rehash)
-        {
+        if let Entry::Vacant(entry) = self.seen.entry(hash(&fact), same, rehash) {
             entry.insert(id);
             facts.push(fact);
+        }
+    }
+
+    /// Adds a value, unless there is one for the same function and arguments.
+    fn set(
+        &mut self,
+        spelling: ast::Name<'a>,
+        value: FunctionValue,
+        values: &mut Vec<FunctionValue>,
+    ) {
+        let key = |value: &FunctionValue| {
+            let mut hasher = FxHasher::default();
+            (value.function, &value.arguments).hash(&mut hasher);
+            hasher.finish()
+        };
+        let same = |&other: &u32| {
+            let other = &values[other as usize];
+            other.function == value.function && other.arguments == value.arguments
+        };
+        match self.valued.entry(key(&value), same, |&other| key(&values[other as usize])) {
+            Entry::Vacant(entry) => {
+                entry.insert(values.len() as u32);
+                values.push(value);
+            }
+            Entry::Occupied(entry) => {
+                let first = &values[*entry.get() as usize];
+                if first.value != value.value {
+                    let detail = format!(", as {} and as {}", first.value, value.value);
+                    let again = ast::Name { span: value.span, ..spelling };
+                    domain::report_duplicate(
+                        "the value of",
+                        again,
+                        &detail,
+                        first.span,
+                        self.report,
+                    );
+                }
+            }
         }
     }
 

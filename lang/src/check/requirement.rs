@@ -185,25 +185,25 @@ pub(super) enum Need {
 }
 
 impl Need {
-    /// The flags of which one must be declared, the one to propose, and what needs it.
-    pub(super) fn describe(self) -> (Flags, &'static str, &'static str) {
-        let (flags, name, what) = match self {
-            Self::Types => (TYPING, ":typing", "a type"),
-            Self::Equality => (EQUALITY, ":equality", "`=`"),
+    /// The flags of which one must be declared, the one to propose with its name, and what needs it.
+    pub(super) fn describe(self) -> (Flags, Flags, &'static str, &'static str) {
+        let (flag, others, name, what) = match self {
+            Self::Types => (TYPING, 0, ":typing", "a type"),
+            Self::Equality => (EQUALITY, 0, ":equality", "`=`"),
             // By the grammar `:disjunctive-preconditions` allows `not` of any condition, and so of an atom.
             Self::Negation => {
-                (NEGATIVE | DISJUNCTIVE, ":negative-preconditions", "`not` in a condition")
+                (NEGATIVE, DISJUNCTIVE, ":negative-preconditions", "`not` in a condition")
             }
-            Self::Disjunction => (DISJUNCTIVE, ":disjunctive-preconditions", "a disjunction"),
-            Self::Exists => (EXISTENTIAL, ":existential-preconditions", "`exists`"),
-            Self::Forall => (UNIVERSAL, ":universal-preconditions", "`forall` in a condition"),
+            Self::Disjunction => (DISJUNCTIVE, 0, ":disjunctive-preconditions", "a disjunction"),
+            Self::Exists => (EXISTENTIAL, 0, ":existential-preconditions", "`exists`"),
+            Self::Forall => (UNIVERSAL, 0, ":universal-preconditions", "`forall` in a condition"),
             Self::ConditionalEffect => {
-                (CONDITIONAL, ":conditional-effects", "`when` or `forall` in an effect")
+                (CONDITIONAL, 0, ":conditional-effects", "`when` or `forall` in an effect")
             }
-            Self::Derived => (DERIVED, ":derived-predicates", "a derived predicate"),
-            Self::Costs => (COSTS | NUMERIC, ":action-costs", "an action cost"),
+            Self::Derived => (DERIVED, 0, ":derived-predicates", "a derived predicate"),
+            Self::Costs => (COSTS, NUMERIC, ":action-costs", "an action cost"),
         };
-        (Flags(flags), name, what)
+        (Flags(flag | others), Flags(flag), name, what)
     }
 }
 

@@ -16,3 +16,21 @@ pub fn agent_without_multi_agent(span: Span) -> Diagnostic {
     RULE.at(span, "`:agent` needs the requirement `:multi-agent`", "")
         .help("add `:multi-agent` to `:requirements`")
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn once() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action lift :agent ?a - dish :parameters (?d - dish) :effect (clean ?d))
+;               ^^^^^^ E0802: `:agent` needs the requirement `:multi-agent`
+  (:action drop :agent ?a - dish :parameters (?d - dish) :effect (clean ?d)))
+"]);
+    }
+}

@@ -24,3 +24,52 @@ pub fn connective_in_init(keyword: &str, span: Span) -> Diagnostic {
         diagnostic.help("list the facts that hold; all others are false")
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn an_and_is_taken_away() {
+        check(&[
+            "(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d - dish)
+    :precondition (in ?d sink)
+    :effect (clean ?d)))
+",
+            "(define (problem p) (:domain d)
+  (:objects mug - cup)
+  (:init (and (in mug sink) (lit)))
+;         ^^^ E0012: `:init` is a list of facts; `and` is not allowed here
+  (:goal (clean mug)))
+",
+        ]);
+    }
+
+    #[test]
+    fn others_are_not() {
+        check(&[
+            "(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d - dish)
+    :precondition (in ?d sink)
+    :effect (clean ?d)))
+",
+            "(define (problem p) (:domain d)
+  (:objects mug - cup)
+  (:init (or (in mug sink) (lit)))
+;         ^^ E0012: `:init` is a list of facts; `or` is not allowed here
+  (:goal (clean mug)))
+",
+        ]);
+    }
+}

@@ -17,3 +17,37 @@ pub fn contradictory_effect(atom: &str, owner: &str, span: Span, other: Span) ->
         .label(other, "the opposite here")
         .help("the atom is true afterwards: deletes come first; remove one of them")
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn the_same_atom_under_the_same_condition() {
+        check(&[
+            "(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d ?e - dish)
+    :effect (and (clean ?d) (not (clean ?e)) (not (clean ?d)))))
+;                                            ^^^^^^^^^^^^^^^^ W0401: action `wash` both adds and deletes `(clean ?d)`
+",
+        ]);
+    }
+
+    #[test]
+    fn other_conditions_are_other_effects() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d - dish)
+    :effect (and (clean ?d) (when (lit) (not (clean ?d))))))
+"]);
+    }
+}

@@ -28,3 +28,28 @@ pub fn cyclic_types(names: &[String], span: Span, others: &[Span]) -> Diagnostic
     }
     diagnostic
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn two_types_and_one() {
+        check(&["(define (domain d) (:requirements :typing)
+  (:types a - b
+;         ^ E0204: type `a` is a subtype of itself: `a` - `b` - `a`
+    b - a
+    c - c)
+;   ^ E0204: type `c` is a subtype of itself: `c` - `c`
+  (:predicates (p ?x - a)))
+"]);
+    }
+
+    #[test]
+    fn object_may_stand_anywhere() {
+        check(&["(define (domain d) (:requirements :typing)
+  (:types a b object - object c - b object)
+  (:predicates (p ?x - a)))
+"]);
+    }
+}

@@ -20,3 +20,26 @@ pub fn disjunctive_effect(keyword: &str, span: Span) -> Diagnostic {
     RULE.at(span, message, "leaves open what happens")
         .help("say what becomes true and what becomes false; for a choice, write one action for each outcome")
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn what_leaves_open_what_happens() {
+        check(&[
+            "(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d - dish)
+    :effect (and (or (clean ?d) (lit)) (not (and (lit))) (exists (?p - place) (in ?d ?p)))))
+;                 ^^ E0402: `or` is a condition; it is not allowed in an effect
+;                                       ^^^ E0402: an effect may negate an atom only
+;                                                         ^^^^^^ E0402: `exists` is a condition; it is not allowed in an effect
+",
+        ]);
+    }
+}

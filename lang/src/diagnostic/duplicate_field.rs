@@ -17,3 +17,24 @@ pub fn duplicate_field(field: &str, owner: &str, span: Span, first: Span) -> Dia
         .label(first, format!("first `{field}` here"))
         .help("merge both with `(and ...)`")
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn both_are_read() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d ?e - dish)
+    :precondition (clean ?e)
+    :precondition (in ?d sink)
+;   ^^^^^^^^^^^^^ E0011: `:precondition` is given twice in action `wash`
+    :effect (clean ?d)))
+"]);
+    }
+}

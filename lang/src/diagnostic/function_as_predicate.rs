@@ -19,5 +19,26 @@ pub fn function_as_predicate(name: &str, span: Span, declared: Span) -> Diagnost
         "has a number as its value, and is not true or false",
     )
     .label(declared, "declared here")
-    .help(format!("compare its value: `(= ({name} …) …)`, or declare a predicate"))
+    .help("compare its value with a number, or declare a predicate")
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn in_a_condition() {
+        check(&["(define (domain d)
+  (:requirements :adl :action-costs)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:functions (total-cost))
+  (:action wash
+    :parameters ()
+    :precondition (total-cost)
+;                  ^^^^^^^^^^ E0205: `total-cost` is a function, not a predicate
+    :effect (lit)))
+"]);
+    }
 }

@@ -33,3 +33,36 @@ pub fn invalid_character(character: char, span: Span) -> Diagnostic {
         plain,
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn a_dash_from_a_word_processor_is_a_dash() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d – dish)
+;                   ^^^ E0006: invalid character `–` (U+2013)
+    :effect (clean ?d)))
+"]);
+    }
+
+    #[test]
+    fn each_character_is_reported_once() {
+        check(&[r#"(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action café :effect (lit))
+;             ^^ E0006: invalid character `é` (U+00E9)
+  (:action thé :effect (and (lit) "and")))
+;                                  ^ E0006: invalid character `"` (U+0022)
+"#]);
+    }
+}

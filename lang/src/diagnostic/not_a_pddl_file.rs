@@ -20,3 +20,40 @@ pub fn not_a_pddl_file(
 ) -> Diagnostic {
     RULE.at(span, message, label).help(help)
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn other_text() {
+        check(&[" hello (world)
+;^^^^^ E0003: this is not a PDDL file
+"]);
+    }
+
+    #[test]
+    fn a_problem_as_the_domain() {
+        check(&["(define (problem p) (:domain d) (:init (p)) (:goal (p)))
+;        ^^^^^^^ E0003: this file is a problem, where a domain is expected
+"]);
+    }
+
+    #[test]
+    fn something_after_the_end() {
+        check(&["(define (domain d) (:predicates (p)))
+ (define (domain e))
+;^^^^^^^^^^^^^^^^^^^ E0003: something follows after the end of the domain
+"]);
+    }
+
+    #[test]
+    fn a_misspelt_define_is_read_all_the_same() {
+        check(&[" (defin (domain d)
+;^^^^^^ E0003: this is not a PDDL file
+  (:predicates (p))
+  (:action a :effect (q)))
+;                     ^ E0101: unknown predicate `q`
+"]);
+    }
+}

@@ -64,3 +64,42 @@ pub fn at_end(
         ")".repeat(count),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn a_section_closes_what_is_open() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+; ^ E0001: this `(` is never closed
+    :parameters (?d - dish)
+    :effect (and (clean ?d)
+  (:action light
+    :parameters ()
+    :effect (lit)))
+"]);
+    }
+
+    #[test]
+    fn the_end_closes_what_is_open() {
+        check(&["(define (domain d)
+  (:predicates (p)
+; ^ E0001: unexpected end of file: 2 unclosed `(`
+    (q)
+"]);
+    }
+
+    #[test]
+    fn only_the_definition_is_open() {
+        check(&["  (define (domain d)
+; ^ E0001: unexpected end of file: this `(` is never closed
+  (:predicates (p))
+"]);
+    }
+}

@@ -24,3 +24,25 @@ pub fn unexpected_close_paren(span: Span, closes_definition: bool) -> Diagnostic
         "",
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn one_that_closes_the_definition_too_early_is_dropped() {
+        check(&["(define (domain d)
+  (:predicates (p)))
+;                  ^ E0002: this `)` has no matching `(`
+  (:action a :parameters () :effect (p)))
+"]);
+    }
+
+    #[test]
+    fn those_after_the_end_are_reported_together() {
+        check(&["(define (domain d)
+  (:predicates (p)))))
+;                   ^ E0002: this `)` has no matching `(`
+"]);
+    }
+}

@@ -20,3 +20,48 @@ pub fn unexpected_item(expected: &str, span: Span) -> Diagnostic {
 pub fn missing_item(expected: &str, span: Span) -> Diagnostic {
     RULE.at(span, format!("expected {expected}"), "missing here")
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn names_where_lists_belong() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action
+;  ^^^^^^^ E0013: expected the name of the action
+    :parameters (d - dish)
+;                ^ E0013: expected a variable such as `?x`
+    :precondition lit
+;                 ^^^ E0013: expected a formula in parentheses
+    :effect (clean ?d)))
+"]);
+    }
+
+    #[test]
+    fn a_problem_needs_a_goal() {
+        check(&[
+            "(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d - dish)
+    :precondition (in ?d sink)
+    :effect (clean ?d)))
+",
+            "(define (problem p) (:domain d)
+;                ^ E0013: expected a `(:goal …)` in the problem
+  (:objects mug - )
+;               ^ E0013: expected a type after `-`
+  (:init lit (in mug sink)))
+;        ^^^ E0013: expected a fact in parentheses
+",
+        ]);
+    }
+}

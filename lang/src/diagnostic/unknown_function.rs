@@ -30,3 +30,45 @@ pub fn unknown_function(
         None => diagnostic.help(format!("declare it: add `({name} …) - number` to `:functions`")),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn in_an_effect() {
+        check(&["(define (domain d)
+  (:requirements :adl :action-costs)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:functions (total-cost))
+  (:action wash
+    :parameters (?d - dish)
+    :effect (and (clean ?d) (increase (total-cots) 1))))
+;                                      ^^^^^^^^^^ E0107: unknown function `total-cots`
+"]);
+    }
+
+    #[test]
+    fn in_the_metric() {
+        check(&[
+            "(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d - dish)
+    :precondition (in ?d sink)
+    :effect (clean ?d)))
+",
+            "(define (problem p) (:domain d)
+  (:objects mug - cup)
+  (:goal (lit))
+  (:metric minimize (total-cost)))
+;                    ^^^^^^^^^^ E0107: unknown function `total-cost`
+",
+        ]);
+    }
+}

@@ -20,3 +20,39 @@ pub fn unknown_predicate(name: &str, span: Span, near: Option<&str>) -> Diagnost
         None => diagnostic.help(format!("declare it: add `({name} …)` to `:predicates`")),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn each_is_reported_once() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d - dish)
+    :precondition (and (cleen ?d) (not (cleen ?d)))
+;                       ^^^^^ E0101: unknown predicate `cleen`
+    :effect (wet ?d sink)))
+;            ^^^ E0101: unknown predicate `wet`
+"]);
+    }
+
+    #[test]
+    fn a_misspelt_connective() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d - dish)
+    :precondition (nto (clean ?d))
+;                  ^^^ E0101: unknown predicate `nto`
+    :effect (clean ?d)))
+"]);
+    }
+}

@@ -15,3 +15,24 @@ pub const RULE: Rule = Rule {
 pub fn unknown_requirement(name: &str, span: Span, near: Option<&str>) -> Diagnostic {
     RULE.at(span, format!("unknown requirement `{name}`"), "not a PDDL requirement").suggest(near)
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn a_misspelt_one_counts() {
+        check(&["(define (domain d)
+  (:requirements :typing :negative-precondition :magic)
+;                        ^^^^^^^^^^^^^^^^^^^^^^ W0301: unknown requirement `:negative-precondition`
+;                                               ^^^^^^ W0301: unknown requirement `:magic`
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d - dish)
+    :precondition (not (clean ?d))
+    :effect (clean ?d)))
+"]);
+    }
+}

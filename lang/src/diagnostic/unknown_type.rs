@@ -20,3 +20,24 @@ pub fn unknown_type(name: &str, span: Span, place: &str, near: Option<&str>) -> 
         None => diagnostic.help(format!("declare it: add `{name}` to `:types`")),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn nothing_is_said_of_what_has_it() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d - dihs ?p - spot ?q - spot)
+;                     ^^^^ E0203: unknown type `dihs`
+;                               ^^^^ E0203: unknown type `spot`
+    :precondition (and (in ?d ?p) (in ?d ?q))
+    :effect (clean ?d)))
+"]);
+    }
+}

@@ -27,3 +27,41 @@ pub fn unknown_variable(
         None => diagnostic.help(format!("in scope: {}", scope.join(", "))),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn once_in_each_action() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?dish - dish)
+    :precondition (in ?dis sink)
+;                     ^^^^ E0102: variable `?dis` is not bound in action `wash`
+    :effect (and (clean ?dis) (clean ?x))))
+;                                    ^^ E0102: variable `?x` is not bound in action `wash`
+"]);
+    }
+
+    #[test]
+    fn a_quantifier_binds_inside_only() {
+        check(&[
+            "(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters ()
+    :precondition (and (forall (?d - dish) (clean ?d)) (in ?d sink))
+;                                                          ^^ E0102: variable `?d` is not bound in action `wash`
+    :effect (lit)))
+",
+        ]);
+    }
+}

@@ -16,3 +16,70 @@ pub fn unsupported_feature(feature: &str, span: Span) -> Diagnostic {
     RULE.at(span, format!("{feature} are not supported yet"), "used here first")
         .help("`caveat plan` does not plan this yet; what stands here is not checked either")
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn once_for_each_feature() {
+        check(&[
+            "(define (domain d)
+  (:requirements :adl :durative-actions :fluents)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:functions (water))
+  (:durative-action soak :parameters (?d - dish) :duration (= ?duration 5) :effect (at end (clean ?d)))
+;  ^^^^^^^^^^^^^^^^ E0303: durative actions are not supported yet
+  (:durative-action dry :parameters (?d - dish) :duration (= ?duration 5) :effect (at end (clean ?d)))
+  (:action wash
+    :parameters (?d - dish)
+    :precondition (and (>= (water) 3) (< (water) 9))
+;                       ^^ E0303: numeric conditions are not supported yet
+    :effect (and (clean ?d) (decrease (water) 2) (assign (water) (+ (water) 1)))))
+;                            ^^^^^^^^ E0303: numeric effects other than `increase` by a constant or a function are not supported yet
+",
+        ]);
+    }
+
+    #[test]
+    fn a_requirement_alone_is_no_use() {
+        check(&["(define (domain d)
+  (:requirements :adl :durative-actions :preferences :timed-initial-literals)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d - dish)
+    :effect (clean ?d)))
+"]);
+    }
+
+    #[test]
+    fn in_a_problem() {
+        check(&[
+            "(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d - dish)
+    :precondition (in ?d sink)
+    :effect (clean ?d)))
+",
+            "(define (problem p) (:domain d)
+  (:objects mug - cup)
+  (:init (at 5 (lit)) (at 7 (lit)))
+;         ^^ E0303: timed initial literals are not supported yet
+  (:goal (preference nice (clean mug)))
+;         ^^^^^^^^^^ E0303: preferences are not supported yet
+  (:constraints (always (lit)))
+;  ^^^^^^^^^^^^ E0303: trajectory constraints are not supported yet
+  (:metric maximize (total-cost)))
+;  ^^^^^^^ E0303: metrics other than `minimize` of a function without parameters are not supported yet
+",
+        ]);
+    }
+}

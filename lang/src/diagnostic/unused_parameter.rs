@@ -16,3 +16,38 @@ pub fn unused_parameter(name: &str, owner: &str, span: Span) -> Diagnostic {
     RULE.at(span, format!("parameter `{name}` of {owner} is never used"), "unused")
         .help("remove it: an unused parameter multiplies the number of ground actions by the number of its objects")
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn the_last_of_three() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d - dish ?p ?q - place)
+;                             ^^ W0101: parameter `?q` of action `wash` is never used
+    :precondition (in ?d ?p)
+    :effect (clean ?d)))
+"]);
+    }
+
+    #[test]
+    fn a_quantifier_may_hide_it() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d - dish)
+;                ^^ W0101: parameter `?d` of action `wash` is never used
+    :precondition (exists (?d - dish) (clean ?d))
+    :effect (lit)))
+"]);
+    }
+}

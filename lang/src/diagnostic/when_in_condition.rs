@@ -17,3 +17,23 @@ pub fn when_in_condition(span: Span) -> Diagnostic {
         .help("use `imply`: `(imply … …)`")
         .fix("replace with `imply`", span, "imply")
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn in_a_precondition() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d - dish)
+    :precondition (when (lit) (clean ?d))
+;                  ^^^^ E0403: `when` is an effect; it is not allowed in a condition
+    :effect (clean ?d)))
+"]);
+    }
+}

@@ -29,3 +29,47 @@ pub fn wrong_arity(
     RULE.at(span, format!("{what} takes {expected} argument{plural}, {given} given"), label)
         .label(declared, "declared here")
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::fixture::check;
+
+    #[test]
+    fn too_few_and_too_many() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d - dish)
+    :precondition (in ?d)
+;                 ^^^^^^^ E0201: predicate `in` takes 2 arguments, 1 given
+    :effect (clean ?d sink)))
+;           ^^^^^^^^^^^^^^^ E0201: predicate `clean` takes 1 argument, 2 given
+"]);
+    }
+
+    #[test]
+    fn in_the_initial_state() {
+        check(&[
+            "(define (domain d)
+  (:requirements :adl)
+  (:types cup plate - dish place)
+  (:constants sink - place)
+  (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:action wash
+    :parameters (?d - dish)
+    :precondition (in ?d sink)
+    :effect (clean ?d)))
+",
+            "(define (problem p) (:domain d)
+  (:objects mug - cup)
+  (:init (in mug) (lit mug))
+;        ^^^^^^^^ E0201: predicate `in` takes 2 arguments, 1 given
+;                 ^^^^^^^^^ E0201: predicate `lit` takes 0 arguments, 1 given
+  (:goal (clean mug)))
+",
+        ]);
+    }
+}

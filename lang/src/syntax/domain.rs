@@ -71,8 +71,8 @@ impl<'a> Reader<'a, '_> {
             }
             return None;
         };
-        self.lost = false;
         if let Some(&section) = known.iter().find(|section| head.is(section)) {
+            self.lost = false;
             return Some((head, section));
         }
         let near = nearest(head.text, known.iter().copied()).or_else(|| {
@@ -82,7 +82,11 @@ impl<'a> Reader<'a, '_> {
                 .find(|section| section.strip_prefix(':').is_some_and(|bare| head.is(bare)))
         });
         let near = near.and_then(|near| known.iter().copied().find(|&section| section == near));
-        self.diagnostics.push(unknown_section::unknown_section(whole, head.text, head.span, near));
+        // What follows something unknown is mostly the rest of the same mistake.
+        if !std::mem::replace(&mut self.lost, near.is_none()) || near.is_some() {
+            self.diagnostics
+                .push(unknown_section::unknown_section(whole, head.text, head.span, near));
+        }
         near.map(|near| (head, near))
     }
 

@@ -83,9 +83,11 @@ impl<'a> Reader<'a, '_> {
         item: Option<NodeId>,
         dash: Span,
     ) -> Option<TypeReference<'a>> {
+        // A type without a name, of which nothing more is said.
+        let missing = Some(TypeReference { names: vec![Name { text: "", span: dash }] });
         let Some(item) = item else {
             self.diagnostics.push(unexpected_item::missing_item("a type after `-`", dash));
-            return None;
+            return missing;
         };
         if !self.tree.is_list(item) {
             return Some(TypeReference { names: vec![self.name(item)] });
@@ -103,7 +105,7 @@ impl<'a> Reader<'a, '_> {
             }
         }
         self.unexpected("a type or `(either TYPE …)`", item);
-        None
+        missing
     }
 
     /// `(NAME ?x - t …)`
