@@ -1,6 +1,17 @@
 //! PDDL text goes in; a checked [`model::Domain`] and [`model::Problem`] come out, with every mistake as a [`diagnostic::Diagnostic`].
 //!
 //! This crate is pure: it opens no files, reads no clock and prints nothing.
+//!
+//! ```
+//! let mut sources = lang::source::Sources::default();
+//! let id = sources.add("domain.pddl", "(define (domain light) (:predicates (lit))\n (:action press :effect (lti)))");
+//! let (domain, diagnostics) = lang::read_domain(&sources, id);
+//! assert_eq!(domain.actions[0].name.text, "press");
+//! assert_eq!(
+//!     lang::render::concise(&diagnostics, &sources),
+//!     "domain.pddl:2:26: error[E0101] unknown-predicate: unknown predicate `lti`\n"
+//! );
+//! ```
 
 pub mod source;
 pub mod diagnostic;
