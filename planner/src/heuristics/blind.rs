@@ -1,6 +1,6 @@
 //! No estimate at all: 0 in a goal state, elsewhere the cost of the cheapest operator, which any plan pays at least once.
 
-use super::{Costs, Heuristic, Profile};
+use super::{Costs, DEAD_END, Heuristic, Profile};
 use crate::state::holds;
 use crate::task::{Fact, Task};
 
@@ -29,8 +29,12 @@ pub struct Blind {
 impl Blind {
     /// For `task`.
     pub fn new(task: &Task, costs: Costs) -> Self {
-        let cheapest =
-            task.operator_ids().map(|operator| costs.of(task, operator)).min().unwrap_or(0);
+        let cheapest = task
+            .operator_ids()
+            .map(|operator| costs.of(task, operator))
+            .min()
+            .unwrap_or(0)
+            .min(DEAD_END - 1);
         Self { goal: task.goal.clone(), cheapest }
     }
 }

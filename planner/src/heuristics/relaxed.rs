@@ -239,7 +239,7 @@ impl Exploration {
         }
         for &rule in &self.free {
             let Progress { cost, adds, .. } = self.start[rule as usize];
-            reach(&mut self.facts, &mut self.queue, adds, cost, rule);
+            reach(&mut self.facts, &mut self.queue, adds, cost.min(MOST_COST), rule);
         }
         let mut missing = self.goal.len();
         if missing == 0 {
