@@ -23,7 +23,7 @@ use std::hash::BuildHasher;
 use crate::grounded::{FactId, Grounded};
 use crate::limits::Limits;
 use crate::normal::{Kind, Normal};
-use balance::{Actions, Verdict};
+use balance::{Actions, Open, Verdict};
 use candidate::Candidate;
 use equality::Kinds;
 
@@ -54,24 +54,25 @@ pub fn groups(
 fn synthesize(normal: &Normal, actions: &Actions, limits: &Limits) -> Vec<Candidate> {
     let fluents = (0..normal.predicates.len())
         .filter(|&predicate| normal.predicates[predicate].kind == Kind::Fluent);
-    let mut queue: VecDeque<Candidate> = fluents
+    let mut queue: VecDeque<Open> = fluents
         .flat_map(|predicate| {
             Candidate::initial(predicate as u32, normal.predicates[predicate].arity)
         })
+        .map(Open::new)
         .collect();
-    let mut seen: FxHashSet<Candidate> = queue.iter().cloned().collect();
+    let mut seen: FxHashSet<Candidate> = queue.iter().map(|open| open.candidate.clone()).collect();
     let mut invariants = Vec::new();
     let mut work = 0;
-    while let Some(candidate) = queue.pop_front() {
+    while let Some(open) = queue.pop_front() {
         if work > WORK || limits.stopped().is_some() {
             break;
         }
-        match actions.check(&candidate, &mut work) {
-            Verdict::Holds => invariants.push(candidate),
+        match actions.check(&open, &mut work) {
+            Verdict::Holds => invariants.push(open.candidate),
             Verdict::Heavy => {}
             Verdict::Unbalanced(extensions) => {
                 for extended in extensions {
-                    if seen.len() < CANDIDATES && seen.insert(extended.clone()) {
+                    if seen.len() < CANDIDATES && seen.insert(extended.candidate.clone()) {
                         queue.push_back(extended);
                     }
                 }

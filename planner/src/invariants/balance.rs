@@ -4,6 +4,8 @@
 //! covered fact that does not hold already (else it is *heavy*), and whenever it adds one it also deletes a covered fact that holds and
 //! does not add that again (else it is *unbalanced*).
 
+use std::cmp::Ordering;
+
 use lang::model::PredicateId;
 
 use crate::grounded::Grounded;
@@ -18,7 +20,7 @@ pub(super) enum Verdict {
     /// A schema adds two facts at once.
     Heavy,
     /// A schema adds a fact and deletes none that is covered: these candidates cover one that it does delete.
-    Unbalanced(Vec<Candidate>),
+    Unbalanced(Vec<Open>),
 }
 
 /// A condition as far as it is understood.
@@ -32,6 +34,12 @@ struct Known<'a> {
 }
 
 impl<'a> Known<'a> {
+    /// Whether it always holds.
+    fn is_truth(&self) -> bool {
+        let literals = self.positive.len() + self.negative.len();
+        literals + self.equal.len() + self.distinct.len() == 0 && !self.more
+    }
+
     fn new(condition: &'a Condition) -> Self {
         let mut known = Self {
             positive: Vec::new(),
@@ -80,14 +88,38 @@ struct Action<'a> {
     precondition: Known<'a>,
     adds: Vec<Change<'a>>,
     deletes: Vec<Change<'a>>,
+    taken: Vec<Taken<'a>>,
+}
+
+/// An atom of a precondition that the schema always deletes, word for word: what balances most adds, so that few need more thought.
+struct Taken<'a> {
+    atom: &'a Atom,
+    /// The only add effect on its predicate, if there is one.
+    rival: Option<usize>,
+}
+
+impl<'a> Taken<'a> {
+    fn all(precondition: &Known<'a>, adds: &[Change<'a>], deletes: &[Change<'a>]) -> Vec<Self> {
+        let always = |atom: &Atom| {
+            let same = |delete: &&Change| delete.variables.is_empty() && delete.atom == atom;
+            deletes.iter().filter(same).any(|delete| delete.condition.is_truth())
+        };
+        let taken = |&&atom: &&&'a Atom| {
+            let mut rivals =
+                (0..adds.len()).filter(|&add| adds[add].atom.predicate == atom.predicate);
+            let rival = rivals.next();
+            (rivals.next().is_none() && always(atom)).then_some(Self { atom, rival })
+        };
+        precondition.positive.iter().filter_map(|atom| taken(&atom)).collect()
+    }
 }
 
 /// All schemas, prepared.
 pub(super) struct Actions<'a> {
     kinds: &'a Kinds,
     all: Vec<Action<'a>>,
-    /// For each predicate the actions that add it.
-    adders: Vec<Vec<u32>>,
+    /// For each predicate the actions that add it, with the effects that do.
+    adders: Vec<Vec<(u32, u32)>>,
 }
 
 impl<'a> Actions<'a> {
@@ -110,50 +142,88 @@ impl<'a> Actions<'a> {
             precondition.distinct.extend(
                 apart.iter().map(|&(left, right)| (Term::Variable(left), Term::Variable(right))),
             );
-            for add in &adds {
-                let list: &mut Vec<u32> = &mut adders[add.literal.atom.predicate.index()];
-                if list.last() != Some(&(actions.len() as u32)) {
-                    list.push(actions.len() as u32);
-                }
+            for (index, add) in adds.iter().enumerate() {
+                let adders: &mut Vec<_> = &mut adders[add.literal.atom.predicate.index()];
+                adders.push((actions.len() as u32, index as u32));
             }
+            let adds: Vec<Change> = adds.into_iter().map(change).collect();
+            let deletes: Vec<Change> = deletes.into_iter().map(change).collect();
             actions.push(Action {
                 schema,
                 kinds: schema.variables.iter().map(|variable| kinds.of(variable)).collect(),
+                taken: Taken::all(&precondition, &adds, &deletes),
                 precondition,
-                adds: adds.into_iter().map(change).collect(),
-                deletes: deletes.into_iter().map(change).collect(),
+                adds,
+                deletes,
             });
         }
         Self { kinds, all: actions, adders }
     }
 
-    /// Checks a candidate on all schemas that add what it covers.
-    pub(super) fn check(&self, candidate: &Candidate, work: &mut u64) -> Verdict {
-        let mut threats: Vec<u32> = candidate
-            .parts
-            .iter()
-            .flat_map(|part| &self.adders[part.predicate as usize])
-            .copied()
-            .collect();
-        threats.sort_unstable();
-        threats.dedup();
-        if threats
-            .iter()
-            .any(|&action| self.all[action as usize].is_heavy(candidate, self.kinds, work))
-        {
-            return Verdict::Heavy;
+    /// Checks what is open about a candidate.
+    ///
+    /// Where one that it extends was found harmless, it is harmless itself: it rules out more states and covers more that is deleted.
+    pub(super) fn check(&self, open: &Open, work: &mut u64) -> Verdict {
+        let candidate = &open.candidate;
+        let mut last = None;
+        for &(action, _) in &self.adders[open.fresh as usize] {
+            *work += 1;
+            let again = last.replace(action) == Some(action);
+            if !again && self.all[action as usize].is_heavy(candidate, self.kinds, work) {
+                return Verdict::Heavy;
+            }
         }
-        for &action in &threats {
-            let action = &self.all[action as usize];
-            for (index, add) in action.adds.iter().enumerate() {
-                let Some(part) = candidate.part(add.atom.predicate.0) else { continue };
-                let scene = action.scene_of(add, part, candidate, self.kinds);
-                if scene.is_possible(work) && !action.is_balanced(index, &scene, work) {
-                    return Verdict::Unbalanced(action.extensions(&scene));
+        for (position, part) in candidate.parts.iter().enumerate() {
+            let adders = &self.adders[part.predicate as usize];
+            for (number, &(action, add)) in adders.iter().enumerate().skip(open.checked[position]) {
+                *work += 1;
+                let action = &self.all[action as usize];
+                if action.is_plainly_balanced(add as usize, part, candidate) {
+                    continue;
+                }
+                let scene =
+                    action.scene_of(&action.adds[add as usize], part, candidate, self.kinds);
+                if scene.is_possible(work) && !action.is_balanced(add as usize, &scene, work) {
+                    let settled = |(index, other): (usize, &Part)| match index.cmp(&position) {
+                        Ordering::Less => self.adders[other.predicate as usize].len(),
+                        Ordering::Equal => number,
+                        Ordering::Greater => open.checked[index],
+                    };
+                    let checked: Vec<usize> =
+                        candidate.parts.iter().enumerate().map(settled).collect();
+                    let extend = |part: Part| open.extend(&checked, part);
+                    return Verdict::Unbalanced(
+                        action.extensions(&scene).into_iter().map(extend).collect(),
+                    );
                 }
             }
         }
         Verdict::Holds
+    }
+}
+
+/// A candidate and what has been checked of it.
+pub(super) struct Open {
+    pub(super) candidate: Candidate,
+    /// The predicate of the last part: whether what is added of it makes a schema heavy is not known yet.
+    fresh: u32,
+    /// For each part how many of the add effects on it are known to be balanced.
+    checked: Vec<usize>,
+}
+
+impl Open {
+    /// Nothing of a candidate of one part is known.
+    pub(super) fn new(candidate: Candidate) -> Self {
+        Self { fresh: candidate.parts[0].predicate, candidate, checked: vec![0] }
+    }
+
+    /// With one more part, of which nothing is known.
+    fn extend(&self, checked: &[usize], part: Part) -> Self {
+        let fresh = part.predicate;
+        let place = self.candidate.parts.partition_point(|other| other.predicate < fresh);
+        let mut checked = checked.to_vec();
+        checked.insert(place, 0);
+        Self { candidate: self.candidate.with(part), fresh, checked }
     }
 }
 
@@ -360,6 +430,23 @@ impl<'a> Action<'a> {
         false
     }
 
+    /// Whether the schema always deletes an atom that is covered word for word as the added one is.
+    fn is_plainly_balanced(&self, add: usize, part: &Part, candidate: &Candidate) -> bool {
+        let added = &self.adds[add];
+        self.taken.iter().any(|taken| {
+            let Some(other) = candidate.part(taken.atom.predicate.0) else { return false };
+            let same = |(&left, &right): (&u32, &u32)| {
+                added.atom.arguments[left as usize] == taken.atom.arguments[right as usize]
+            };
+            // Another instance of the same effect might add it again.
+            let again = match taken.rival {
+                None => false,
+                Some(rival) => rival != add || !added.variables.is_empty(),
+            };
+            !again && part.order.iter().zip(&other.order).all(same)
+        })
+    }
+
     /// Whether a covered fact that holds is deleted for good where the add fires.
     fn is_balanced(&self, add: usize, scene: &Scene<'a>, work: &mut u64) -> bool {
         scene
@@ -461,10 +548,10 @@ impl<'a> Action<'a> {
             })
     }
 
-    /// The candidate with one more part: an atom over the same parameters that holds and is deleted where the add fires.
+    /// Parts that would help: an atom over the same parameters that holds and is deleted where the add fires.
     ///
     /// Whether that atom may be added again is left to the check of the extended candidate, which knows more.
-    fn extensions(&self, scene: &Scene<'a>) -> Vec<Candidate> {
+    fn extensions(&self, scene: &Scene<'a>) -> Vec<Part> {
         let mut extended = Vec::new();
         for &held in &scene.positive {
             let PredicateId(predicate) = held.atom.predicate;
@@ -487,7 +574,7 @@ impl<'a> Action<'a> {
             }
             for order in orders {
                 let counted = (0..arity as u32).find(|position| !order.contains(position));
-                extended.push(scene.candidate.with(Part { predicate, order, counted }));
+                extended.push(Part { predicate, order, counted });
             }
         }
         extended

@@ -36,7 +36,8 @@ impl Candidate {
 
     /// The part of a predicate.
     pub(super) fn part(&self, predicate: u32) -> Option<&Part> {
-        self.parts.iter().find(|part| part.predicate == predicate)
+        let found = self.parts.binary_search_by_key(&predicate, |part| part.predicate);
+        found.ok().map(|index| &self.parts[index])
     }
 
     /// With one more part.

@@ -249,12 +249,12 @@ fn a_block_is_somewhere_and_has_something_on_it_and_the_hand_holds_one() {
         goal: on(b,a)
     "), @r"
     handempty holding(a) holding(b) holding(c)
-    holding(b) on(b,a) on(b,b) on(b,c) ontable(b)
-    holding(c) on(c,a) on(c,b) on(c,c) ontable(c)
-    holding(a) on(a,a) on(a,b) on(a,c) ontable(a)
     clear(a) holding(a) on(a,a) on(b,a) on(c,a)
     clear(c) holding(c) on(a,c) on(b,c) on(c,c)
     clear(b) holding(b) on(a,b) on(b,b) on(c,b)
+    holding(b) on(b,a) on(b,b) on(b,c) ontable(b)
+    holding(c) on(c,a) on(c,b) on(c,c) ontable(c)
+    holding(a) on(a,a) on(a,b) on(a,c) ontable(a)
     ");
 }
 
