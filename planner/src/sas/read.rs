@@ -256,3 +256,65 @@ impl<'t> Reader<'t> {
         Error { line: self.line, expected: expected.to_owned() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::read;
+    use crate::task::{Fact, OperatorId, VariableId};
+
+    /// A lamp whose switch also opens a door where there is power; whoever sees the lamp lit is happy, which is derived.
+    const LAMP: &str = "begin_version\n3\nend_version\nbegin_metric\n1\nend_metric\n3\n\
+        begin_variable\nvar0\n-1\n2\nAtom lit(lamp)\nNegatedAtom lit(lamp)\nend_variable\n\
+        begin_variable\nvar1\n-1\n3\nAtom door(open)\nAtom door(shut)\n<none of those>\nend_variable\n\
+        begin_variable\nvar2\n0\n2\nAtom happy()\nNegatedAtom happy()\nend_variable\n\
+        1\nbegin_mutex_group\n2\n0 0\n1 1\nend_mutex_group\n\
+        begin_state\n1\n1\n1\nend_state\nbegin_goal\n1\n2 0\nend_goal\n\
+        1\nbegin_operator\nswitch lamp\n1\n1 1\n2\n0 0 1 0\n1 0 1 1 -1 2\n7\nend_operator\n\
+        1\nbegin_rule\n1\n0 0\n2 1 0\nend_rule\n";
+
+    #[test]
+    fn a_file_becomes_the_task_that_it_describes() {
+        let named = read(LAMP).expect("the file is well formed");
+        let task = &named.task;
+        let fact = |variable, value| Fact { variable: VariableId(variable), value };
+        let switch = OperatorId(0);
+        assert_eq!(named.operators, ["switch lamp"]);
+        assert_eq!(named.facts[1][2], "<none of those>");
+        assert_eq!(
+            (task.initial_state.as_slice(), task.goal.as_slice()),
+            ([1, 1, 1].as_slice(), [fact(2, 0)].as_slice())
+        );
+        assert_eq!(task.precondition(switch), [fact(0, 1), fact(1, 1)]);
+        assert_eq!(task.operators[0].cost, 7);
+        let effects: Vec<_> = task
+            .effects(switch)
+            .iter()
+            .map(|effect| (task.conditions(&effect.conditions), effect.fact))
+            .collect();
+        assert_eq!(effects, [([].as_slice(), fact(0, 0)), ([fact(0, 1)].as_slice(), fact(1, 2))]);
+        assert_eq!((task.variables[2].axiom_layer, task.variables[2].default), (Some(0), 1));
+        assert_eq!(
+            (task.axioms[0].head, task.conditions(&task.axioms[0].conditions)),
+            (fact(2, 0), [fact(0, 0)].as_slice())
+        );
+        assert_eq!(task.mutex_groups, [[fact(0, 0), fact(1, 1)]]);
+    }
+
+    #[test]
+    fn a_wrong_file_is_refused_at_the_line_that_is_wrong() {
+        let message = |text: &str| read(text).map(|_| ()).map_err(|error| error.to_string());
+        assert_eq!(message(""), Err("line 1: expected begin_version".to_owned()));
+        assert_eq!(
+            message(&LAMP.replacen("\n3\n", "\n2\n", 1)),
+            Err("line 2: expected version 3".to_owned())
+        );
+        assert_eq!(
+            message(&LAMP.replace("2 0\nend_goal", "2 5\nend_goal")),
+            Err("line 43: expected a value below 2".to_owned())
+        );
+        assert_eq!(
+            message(&LAMP.replace("2 1 0\nend_rule", "2 1\nend_rule")),
+            Err("line 59: expected a variable and two values".to_owned())
+        );
+    }
+}
