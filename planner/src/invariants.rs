@@ -28,10 +28,10 @@ use candidate::Candidate;
 use equality::Kinds;
 
 /// So many candidates are looked at, at most.
-const CANDIDATES: usize = 10_000;
+const CANDIDATES: usize = 40_000;
 
 /// So many comparisons of atoms are made, at most: less than a second.
-const WORK: u64 = 30_000_000;
+const WORK: u64 = 8_000_000;
 
 /// The mutex groups of a problem: of each, at most one fact holds in any reachable state. Facts of a group are sorted; no group is
 /// there twice; each has at least two facts, none of them derived.
