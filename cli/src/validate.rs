@@ -105,8 +105,21 @@ fn one(
         }
     };
     terminal.data(validate::lines(&verdict));
-    if matches!(verdict, Verdict::Invalid(_)) {
+    if let Verdict::Invalid(failure) = &verdict {
         terminal.data(validate::story(&verdict, &input.domain, &input.problem, &listing.plan));
+        let mut diagnostics = lang::diagnostic::Diagnostics::default();
+        diagnostics.push(failure.diagnostic(
+            &input.domain,
+            &input.problem,
+            &listing.plan,
+            &listing.spans,
+        ));
+        terminal.talk(input::rendered(
+            &input.reader.sources,
+            &diagnostics,
+            arguments.output_format,
+            terminal.colour,
+        ));
         return Ok(false);
     }
     Ok(true)

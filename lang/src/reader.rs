@@ -28,7 +28,20 @@ pub fn read_problem(
     let mut diagnostics = Diagnostics::default();
     let ast = parse_problem(sources, id, &mut diagnostics);
     let problem = check::problem(&ast, domain, &mut diagnostics);
+    if diagnostics.list.iter().any(|diagnostic| diagnostic.name == "domain-name-mismatch") {
+        without_strangers(&mut diagnostics);
+    }
     (problem, sorted(diagnostics))
+}
+
+/// Against the wrong domain nearly every name is unknown. That is one mistake, and it is said once: what else is said of names and types goes.
+fn without_strangers(diagnostics: &mut Diagnostics) {
+    if diagnostics.list.iter().any(|diagnostic| diagnostic.name == "unknown-predicate") {
+        let of_names = |code: &str| code.starts_with("E01") || code.starts_with("E02");
+        diagnostics.list.retain(|diagnostic| {
+            diagnostic.name == "domain-name-mismatch" || !of_names(diagnostic.code)
+        });
+    }
 }
 
 /// Reads a domain without resolving names.
