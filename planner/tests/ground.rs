@@ -14,6 +14,8 @@ use proptest::prelude::*;
 type Fact = (PredicateId, Vec<ObjectId>);
 /// An action by its number, with its arguments.
 type Instance = (u32, Vec<ObjectId>);
+/// Takes an applicable instance, what it may add and what it may delete.
+type Take<'a> = dyn FnMut(Instance, &[Fact], &[Fact]) + 'a;
 
 /// What brute force knows of the facts.
 struct Known<'a> {
@@ -131,7 +133,7 @@ impl Known<'_> {
     }
 
     /// Calls `found` with every applicable instance, what it may add and what it may delete.
-    fn instances(&self, found: &mut dyn FnMut(Instance, &[Fact], &[Fact])) {
+    fn instances(&self, found: &mut Take) {
         for (number, action) in self.domain.actions.iter().enumerate() {
             let types = self.types(&action.scope);
             let mut binding = vec![ObjectId(0); types.len()];
