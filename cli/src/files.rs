@@ -125,7 +125,7 @@ pub fn write(path: &Path, text: &[u8]) -> Result<(), Complaint> {
     write_with(path, |out| out.write_all(text))
 }
 
-/// As [`write`], for text that is made while it is written.
+/// As [`write()`], for text that is made while it is written.
 pub fn write_with(
     path: &Path,
     work: impl FnOnce(&mut dyn Write) -> io::Result<()>,

@@ -1,4 +1,4 @@
-//! An [`ast::Domain`] or an [`ast::Problem`] goes in; PDDL text comes out that reads as the same again.
+//! An [`Domain`] or an [`Problem`] goes in; PDDL text comes out that reads as the same again.
 //!
 //! Comments are not part of the AST and so are not printed; spelling is kept.
 

@@ -1,4 +1,4 @@
-//! A [`Tree`] goes in; an [`ast::Domain`] or an [`ast::Problem`] comes out, as far as the text can be understood.
+//! A [`Tree`] goes in; an [`Domain`](crate::ast::Domain) or an [`Problem`](crate::ast::Problem) comes out, as far as the text can be understood.
 
 mod list;
 mod formula;
