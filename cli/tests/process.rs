@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 use std::fs;
-use std::io::{Read, Write};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::thread;
@@ -315,6 +315,35 @@ fn the_memory_limit_ends_a_search_with_22() {
 }
 
 #[test]
+fn a_signal_leaves_the_best_plan_whole() {
+    let desk = towers(40);
+    let mut child = desk
+        .command("plan problem.pddl --anytime --time-limit 120s")
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the program can be run");
+    let lines = BufReader::new(child.stdout.take().expect("it is piped")).lines();
+    let reader = thread::spawn(move || {
+        let mut lines = lines.map_while(Result::ok);
+        let found = lines.any(|line| line.starts_with("Plan cost: "));
+        (found, lines)
+    });
+    let (found, rest) = reader.join().expect("the reader does not panic");
+    assert!(found, "no plan was printed");
+    let kill = Command::new("kill")
+        .args(["-TERM", &child.id().to_string()])
+        .status()
+        .expect("kill can be run");
+    assert!(kill.success());
+    rest.for_each(drop);
+    assert_eq!(child.wait().expect("the program ends").code(), Some(2));
+    let plans: Vec<String> =
+        desk.names().into_iter().filter(|name| name.starts_with("sas_plan")).collect();
+    assert!(!plans.is_empty() && plans.len() == desk.names().len() - 2, "{:?}", desk.names());
+    desk.run(&format!("validate problem.pddl {}", plans.join(" "))).ends_with(0);
+}
+
+#[test]
 fn a_signal_before_a_plan_leaves_no_plan() {
     let desk = towers(40);
     let mut child = desk
@@ -322,7 +351,7 @@ fn a_signal_before_a_plan_leaves_no_plan() {
         .stdout(Stdio::null())
         .spawn()
         .expect("the program can be run");
-    thread::sleep(Duration::from_millis(700));
+    thread::sleep(Duration::from_millis(1500));
     Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill can be run");
     assert_eq!(child.wait().expect("the program ends").code(), Some(23));
     assert_eq!(desk.names(), ["domain.pddl", "problem.pddl"]);
