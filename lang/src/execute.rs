@@ -22,7 +22,7 @@ use rust_decimal::Decimal;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 pub use state::{Change, State};
-pub use strata::Unstratified;
+pub use strata::{Unstratified, stratified};
 
 use crate::model::{
     Action, ActionId, Atom, Domain, Effect, Expression, Fact, Formula, FunctionId, Increase,

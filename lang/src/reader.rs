@@ -5,6 +5,7 @@ use logos::Logos;
 use crate::ast;
 use crate::check;
 use crate::diagnostic::Diagnostics;
+use crate::execute;
 use crate::lexer::TokenKind;
 use crate::model;
 use crate::source::{SourceId, Sources};
@@ -16,6 +17,11 @@ pub fn read_domain(sources: &Sources, id: SourceId) -> (model::Domain, Diagnosti
     let mut diagnostics = Diagnostics::default();
     let ast = parse_domain(sources, id, &mut diagnostics);
     let domain = check::domain(&ast, &mut diagnostics);
+    if !diagnostics.has_errors()
+        && let Err(unstratified) = execute::stratified(&domain)
+    {
+        diagnostics.push(unstratified.diagnostic(&domain));
+    }
     (domain, sorted(diagnostics))
 }
 

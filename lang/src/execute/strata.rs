@@ -31,6 +31,11 @@ impl Unstratified {
     }
 }
 
+/// Whether the axioms of `domain` have a meaning: no derived predicate depends on its own negation.
+pub fn stratified(domain: &Domain) -> Result<(), Unstratified> {
+    Strata::new(domain).map(drop)
+}
+
 /// How an axiom's body uses one of its nodes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Use {
