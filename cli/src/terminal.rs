@@ -63,8 +63,9 @@ impl<'a> Terminal<'a> {
         let _ = writeln!(self.err, "{text}");
     }
 
-    /// Writes talk as it is.
+    /// Writes talk as it is, after the data that came before it.
     pub fn talk(&mut self, text: impl fmt::Display) {
+        self.flush();
         let _ = write!(self.err, "{text}");
     }
 

@@ -1,6 +1,7 @@
 //! What PDDL means, one rule a test.
 
 use lang::plan::Plan;
+use lang::source::Sources;
 use lang::validate::{Verdict, judge};
 use rust_decimal::Decimal;
 
@@ -90,17 +91,22 @@ fn recursion_through_forall_reaches_its_fixpoint() {
 
 #[test]
 fn negation_in_a_circle_is_refused_with_its_place() {
-    let fixture = Fixture::new(
-        "(:requirements :adl :derived-predicates) (:predicates (p) (q))
+    let mut sources = Sources::default();
+    let id = sources.add(
+        "domain.pddl",
+        "(define (domain d)
+(:requirements :adl :derived-predicates) (:predicates (p) (q))
         (:derived (p) (not (q)))
-        (:derived (q) (p))",
-        "(:init) (:goal (p))",
+        (:derived (q) (p)))",
     );
-    let unstratified = lang::execute::Executor::new(&fixture.domain, &fixture.problem).unwrap_err();
-    assert_eq!(fixture.place(unstratified.span), "domain.pddl:3:28");
-    let diagnostic = unstratified.diagnostic(&fixture.domain);
+    let (domain, diagnostics) = lang::read_domain(&sources, id);
+    assert_eq!(diagnostics.list.len(), 1);
+    let diagnostic = &diagnostics.list[0];
+    assert_eq!(sources.text(diagnostic.primary.span), "(q)");
     assert_eq!(diagnostic.message, "`p` is derived from its own negation");
     assert_eq!(diagnostic.primary.text, "`q` is negated here and depends on it in turn");
+    let unstratified = lang::execute::stratified(&domain).unwrap_err();
+    assert_eq!(unstratified.span, diagnostic.primary.span);
 }
 
 const COSTS: &str = "(:requirements :action-costs :typing) (:types place)
