@@ -183,8 +183,15 @@ fn forall(bound: Vec<u32>, child: Nnf) -> Nnf {
 
 /// The variables that occur in `formula` without being bound in it, in order of first occurrence.
 pub fn free(formula: &Nnf) -> Vec<u32> {
+    free_of_all(std::slice::from_ref(formula))
+}
+
+/// The variables that occur in `formulas` without being bound in them, in order of first occurrence.
+pub fn free_of_all(formulas: &[Nnf]) -> Vec<u32> {
     let mut walk = Occurrences::default();
-    walk.formula(formula);
+    for formula in formulas {
+        walk.formula(formula);
+    }
     walk.free()
 }
 

@@ -2,7 +2,7 @@
 
 use lang::model::{self, ActionId, PredicateId, Problem, Scope};
 
-use super::formula::{self, Nnf, free, negate};
+use super::formula::{self, Nnf, free, free_of_all, negate};
 use crate::normal::{
     Atom, Condition, Cost, Effect, Filter, Kind, Literal, Predicate, Rule, Schema, Term, Universal,
     Variable,
@@ -45,7 +45,7 @@ impl Builder {
         for effect in &action.effects {
             let condition = formula::nnf(&effect.condition, &self.predicates);
             let outer: Vec<u32> = effect.variables.iter().map(|variable| variable.0).collect();
-            for conjunction in self.split(condition, &action.scope) {
+            for conjunction in self.split(&condition, &action.scope) {
                 for literal in &effect.literals {
                     let mut variables = outer.clone();
                     variables.extend(&conjunction.exists);
@@ -59,7 +59,7 @@ impl Builder {
                 }
             }
         }
-        for conjunction in self.split(precondition, &action.scope) {
+        for conjunction in self.split(&precondition, &action.scope) {
             let numbering = Numbering::new(&action.scope, &conjunction.exists);
             schemas.push(Schema {
                 action: id,
@@ -77,6 +77,7 @@ impl Builder {
     pub fn axiom(&mut self, axiom: &model::Axiom) {
         let body = formula::nnf(&axiom.body, &self.predicates);
         let arguments = (0..axiom.scope.parameters).map(Term::Variable).collect();
+        let body = self.split(&body, &axiom.scope);
         self.derive(&Atom { predicate: axiom.head, arguments }, body, &axiom.scope);
     }
 
@@ -84,24 +85,21 @@ impl Builder {
     pub fn goal(&mut self, problem: &Problem) -> (Condition, Vec<Variable>) {
         let scope = &problem.goal_scope;
         let goal = formula::nnf(&problem.goal, &self.predicates);
-        let mut conjunctions = self.split(goal.clone(), scope);
-        let conjunction = match (conjunctions.len(), conjunctions.pop()) {
-            (1, Some(conjunction)) if conjunction.exists.is_empty() => conjunction,
-            _ => {
-                let literal = self.hide(goal, scope, "goal");
-                Conjunction {
-                    condition: Condition { literals: vec![literal], ..Condition::default() },
-                    ..Conjunction::default()
-                }
-            }
+        let mut conjunctions = self.split(&goal, scope);
+        let conjunction = if conjunctions.len() == 1 && conjunctions[0].exists.is_empty() {
+            conjunctions.pop().expect("there is one")
+        } else {
+            let literal = self.hide(conjunctions, &free(&goal), scope, "goal");
+            let condition = Condition { literals: vec![literal], ..Condition::default() };
+            Conjunction { condition, ..Conjunction::default() }
         };
         let numbering = Numbering::new(scope, &[]);
         (numbering.condition(conjunction.condition), numbering.variables())
     }
 
-    /// Adds the rules that derive `head` wherever `body` holds.
-    fn derive(&mut self, head: &Atom, body: Nnf, scope: &Scope) {
-        for conjunction in self.split(body, scope) {
+    /// Adds the rules that derive `head` wherever one of the conjunctions holds.
+    fn derive(&mut self, head: &Atom, body: Vec<Conjunction>, scope: &Scope) {
+        for conjunction in body {
             let outer: Vec<u32> = head
                 .arguments
                 .iter()
@@ -120,9 +118,9 @@ impl Builder {
         }
     }
 
-    /// A new derived predicate that holds wherever `body` does, applied to the free variables of `body`.
-    fn hide(&mut self, body: Nnf, scope: &Scope, what: &str) -> Literal {
-        let arguments: Vec<Term> = free(&body).into_iter().map(Term::Variable).collect();
+    /// A new derived predicate that holds wherever one of the conjunctions does, applied to the variables that are `free` in them.
+    fn hide(&mut self, body: Vec<Conjunction>, free: &[u32], scope: &Scope, what: &str) -> Literal {
+        let arguments: Vec<Term> = free.iter().copied().map(Term::Variable).collect();
         let predicate = PredicateId(self.predicates.len() as u32);
         // The `@` cannot stand in a name of PDDL files that the lexer accepts as one word, so no domain has this name.
         let name = format!("{what}@{}", predicate.0);
@@ -133,19 +131,15 @@ impl Builder {
     }
 
     /// The conjunctions whose disjunction `formula` is.
-    fn split(&mut self, formula: Nnf, scope: &Scope) -> Vec<Conjunction> {
+    fn split(&mut self, formula: &Nnf, scope: &Scope) -> Vec<Conjunction> {
+        let alone = |condition| vec![Conjunction { condition, ..Conjunction::default() }];
         match formula {
-            Nnf::Filter(filter) => {
-                vec![Conjunction { condition: static_condition(filter), ..Conjunction::default() }]
-            }
+            Nnf::Filter(filter) => alone(static_condition(filter.clone())),
             Nnf::Literal(literal) => {
-                vec![Conjunction {
-                    condition: Condition { literals: vec![literal], ..Condition::default() },
-                    ..Conjunction::default()
-                }]
+                alone(Condition { literals: vec![literal.clone()], ..Condition::default() })
             }
             Nnf::Exists(bound, child) => {
-                let mut conjunctions = self.split(*child, scope);
+                let mut conjunctions = self.split(child, scope);
                 for conjunction in &mut conjunctions {
                     conjunction.exists.splice(0..0, bound.iter().copied());
                 }
@@ -154,29 +148,26 @@ impl Builder {
             Nnf::Any(children) => self.split_any(children, scope),
             Nnf::All(children) => self.split_all(children, scope),
             Nnf::Forall(bound, child) => {
-                let universal = self.universal(bound, *child, scope);
-                vec![Conjunction {
-                    condition: Condition { universals: vec![universal], ..Condition::default() },
-                    ..Conjunction::default()
-                }]
+                let universal = self.universal(bound.clone(), child, scope);
+                alone(Condition { universals: vec![universal], ..Condition::default() })
             }
         }
     }
 
     /// A disjunction. Where its static part holds nothing else is asked, so the other disjuncts are for where it does not:
     /// no instance is made twice for the same reason.
-    fn split_any(&mut self, children: Vec<Nnf>, scope: &Scope) -> Vec<Conjunction> {
+    fn split_any(&mut self, children: &[Nnf], scope: &Scope) -> Vec<Conjunction> {
         let mut conjunctions = Vec::new();
         let mut otherwise = None;
         for child in children {
-            if let Nnf::Filter(filter) = &child {
-                otherwise = Some(negate(filter.clone()));
+            if let Nnf::Filter(filter) = child {
+                otherwise = Some(static_condition(negate(filter.clone())));
                 conjunctions.extend(self.split(child, scope));
                 continue;
             }
             for mut conjunction in self.split(child, scope) {
-                if let Some(filter) = &otherwise {
-                    merge(&mut conjunction.condition, static_condition(filter.clone()));
+                if let Some(condition) = &otherwise {
+                    merge(&mut conjunction.condition, condition.clone());
                 }
                 conjunctions.push(conjunction);
             }
@@ -185,13 +176,12 @@ impl Builder {
     }
 
     /// A conjunction: the product of what its children split into, with the largest disjunctions hidden where that would be too many.
-    fn split_all(&mut self, children: Vec<Nnf>, scope: &Scope) -> Vec<Conjunction> {
-        let mut parts: Vec<(Nnf, Vec<Conjunction>)> = Vec::with_capacity(children.len());
+    fn split_all(&mut self, children: &[Nnf], scope: &Scope) -> Vec<Conjunction> {
+        let mut parts: Vec<(&Nnf, Vec<Conjunction>)> = Vec::with_capacity(children.len());
         for child in children {
-            let conjunctions = self.split(child.clone(), scope);
-            parts.push((child, conjunctions));
+            parts.push((child, self.split(child, scope)));
         }
-        let product = |parts: &[(Nnf, Vec<Conjunction>)]| {
+        let product = |parts: &[(&Nnf, Vec<Conjunction>)]| {
             parts.iter().fold(1_usize, |product, (_, conjunctions)| {
                 product.saturating_mul(conjunctions.len().max(1))
             })
@@ -204,8 +194,9 @@ impl Builder {
                 .max()
                 .expect("a product above one has parts");
             let (formula, conjunctions) = &mut parts[usize::MAX - largest];
-            let literal = self.hide(formula.clone(), scope, "any");
-            *conjunctions = self.split(Nnf::Literal(literal), scope);
+            let literal = self.hide(std::mem::take(conjunctions), &free(formula), scope, "any");
+            let condition = Condition { literals: vec![literal], ..Condition::default() };
+            conjunctions.push(Conjunction { condition, ..Conjunction::default() });
         }
         // What does not split stands in every conjunction; it is gathered once, since goals may have thousands of parts.
         let mut shared = Conjunction::default();
@@ -233,45 +224,32 @@ impl Builder {
     }
 
     /// A universal condition over facts: literals under a static guard, or an auxiliary predicate for all bindings.
-    fn universal(&mut self, variables: Vec<u32>, child: Nnf, scope: &Scope) -> Universal {
-        let always = Filter::All(Vec::new());
-        match child {
-            Nnf::Literal(literal) => {
-                Universal { variables, guard: always, literals: vec![literal] }
-            }
-            Nnf::Any(children) => {
-                let mut rest = children.clone();
-                let guard = match rest.first() {
-                    Some(Nnf::Filter(filter)) => {
-                        let guard = negate(filter.clone());
-                        rest.remove(0);
-                        guard
-                    }
-                    _ => always,
-                };
-                let literals = match rest.as_slice() {
-                    [Nnf::Literal(literal)] => Some(vec![literal.clone()]),
-                    [Nnf::All(children)] => children
-                        .iter()
-                        .map(|child| {
-                            if let Nnf::Literal(literal) = child {
-                                Some(literal.clone())
-                            } else {
-                                None
-                            }
-                        })
-                        .collect(),
-                    _ => None,
-                };
-                let literals =
-                    literals.unwrap_or_else(|| vec![self.hide(formula::any(rest), scope, "all")]);
-                Universal { variables, guard, literals }
-            }
-            other => {
-                let literal = self.hide(other, scope, "all");
-                Universal { variables, guard: always, literals: vec![literal] }
-            }
-        }
+    fn universal(&mut self, variables: Vec<u32>, child: &Nnf, scope: &Scope) -> Universal {
+        let (guard, rest) = match child {
+            Nnf::Any(children) => match children.split_first() {
+                Some((Nnf::Filter(filter), rest)) => (negate(filter.clone()), rest),
+                _ => (Filter::All(Vec::new()), children.as_slice()),
+            },
+            other => (Filter::All(Vec::new()), std::slice::from_ref(other)),
+        };
+        let literals = match rest {
+            [Nnf::Literal(literal)] => Some(vec![literal.clone()]),
+            [Nnf::All(children)] => children.iter().map(literal).collect(),
+            _ => None,
+        };
+        let literals = literals.unwrap_or_else(|| {
+            let body = self.split_any(rest, scope);
+            vec![self.hide(body, &free_of_all(rest), scope, "all")]
+        });
+        Universal { variables, guard, literals }
+    }
+}
+
+/// The literal that a formula is, if it is one.
+fn literal(formula: &Nnf) -> Option<Literal> {
+    match formula {
+        Nnf::Literal(literal) => Some(literal.clone()),
+        _ => None,
     }
 }
 
