@@ -114,22 +114,28 @@ impl Known<'_> {
             let before = self.reachable.len();
             let mut new = Vec::new();
             self.instances(&mut |_, added, _| new.extend(added.iter().cloned()));
-            for axiom in &self.domain.axioms {
-                let types = self.types(&axiom.scope);
-                let mut binding = vec![ObjectId(0); types.len()];
-                let parameters: Vec<VariableId> =
-                    (0..axiom.scope.parameters).map(VariableId).collect();
-                for_all(&parameters, &types, &mut binding, &mut |binding| {
-                    if self.root(&axiom.body, &types, true, binding) {
-                        new.push((axiom.head, binding[..parameters.len()].to_vec()));
-                    }
-                });
-            }
+            new.extend(self.derived(true));
             self.reachable.extend(new);
             if self.reachable.len() == before {
                 return;
             }
         }
+    }
+
+    /// The heads of all axioms whose bodies may hold, or must hold.
+    fn derived(&self, may: bool) -> Vec<Fact> {
+        let mut derived = Vec::new();
+        for axiom in &self.domain.axioms {
+            let types = self.types(&axiom.scope);
+            let mut binding = vec![ObjectId(0); types.len()];
+            let parameters: Vec<VariableId> = (0..axiom.scope.parameters).map(VariableId).collect();
+            for_all(&parameters, &types, &mut binding, &mut |binding| {
+                if self.root(&axiom.body, &types, may, binding) {
+                    derived.push((axiom.head, binding[..parameters.len()].to_vec()));
+                }
+            });
+        }
+        derived
     }
 
     /// Calls `found` with every applicable instance, what it may add and what it may delete.
@@ -178,18 +184,7 @@ impl Known<'_> {
         };
         loop {
             let before = known.always.len();
-            let mut new = Vec::new();
-            for axiom in &self.domain.axioms {
-                let types = self.types(&axiom.scope);
-                let mut binding = vec![ObjectId(0); types.len()];
-                let parameters: Vec<VariableId> =
-                    (0..axiom.scope.parameters).map(VariableId).collect();
-                for_all(&parameters, &types, &mut binding, &mut |binding| {
-                    if known.root(&axiom.body, &types, false, binding) {
-                        new.push((axiom.head, binding[..parameters.len()].to_vec()));
-                    }
-                });
-            }
+            let new = known.derived(false);
             known.always.extend(new);
             if known.always.len() == before {
                 return known.always;
@@ -297,16 +292,8 @@ fn explore(domain: &Domain, problem: &Problem, limit: usize) -> (BTreeSet<Instan
             reachable: states[next].clone(),
             always: states[next].clone(),
         };
-        for axiom in &domain.axioms {
-            let types = known.types(&axiom.scope);
-            let mut binding = vec![ObjectId(0); types.len()];
-            let parameters: Vec<VariableId> = (0..axiom.scope.parameters).map(VariableId).collect();
-            let mut derived = Vec::new();
-            for_all(&parameters, &types, &mut binding, &mut |binding| {
-                if known.root(&axiom.body, &types, true, binding) {
-                    derived.push((axiom.head, binding[..parameters.len()].to_vec()));
-                }
-            });
+        for _ in &domain.axioms {
+            let derived = known.derived(true);
             known.reachable.extend(derived);
             known.always = known.reachable.clone();
         }
