@@ -277,13 +277,16 @@ pub fn load(
     found.append(more);
     reader.settle(&mut found);
     found.list.retain(|diagnostic| diagnostic.severity == Severity::Error);
-    if found.list.is_empty() {
-        return Ok(Input { reader, domain, problem });
+    if !found.list.is_empty() {
+        terminal.talk(rendered(&reader.sources, &found, format, terminal.colour));
+        return Err(Refusal::Wrong);
     }
-    terminal.talk(rendered(&reader.sources, &found, format, terminal.colour));
-    let unsupported =
-        found.list.iter().all(|diagnostic| diagnostic.code == unsupported_feature::RULE.code);
-    Err(if unsupported { Refusal::Unsupported } else { Refusal::Wrong })
+    let refusals = lang::refusals(domain.uses.iter().chain(&problem.uses));
+    if !refusals.list.is_empty() {
+        terminal.talk(rendered(&reader.sources, &refusals, format, terminal.colour));
+        return Err(Refusal::Unsupported);
+    }
+    Ok(Input { reader, domain, problem })
 }
 
 /// What the planner does not plan, as a diagnostic.

@@ -11,16 +11,14 @@ mod effect;
 mod domain;
 mod problem;
 
-use std::collections::BTreeSet;
-
 use hashbrown::HashSet;
 
 use crate::ast::{self, Feature, Unread};
 use crate::diagnostic::{
     Diagnostic, Diagnostics, Rule, agent_without_multi_agent, missing_requirement, unexpected_item,
-    unknown_predicate, unsupported_feature,
+    unknown_predicate,
 };
-use crate::model::{self, Object, TypeId, Variable};
+use crate::model::{self, Object, TypeId, Use, Variable};
 use crate::near::nearest;
 use crate::source::Span;
 
@@ -38,7 +36,8 @@ struct Report<'d> {
     diagnostics: &'d mut Diagnostics,
     /// The names that have been reported, in lower case, each with the code of the mistake.
     said: HashSet<(&'static str, String)>,
-    features: BTreeSet<Feature>,
+    /// What is used and not resolved, each once.
+    uses: Vec<Use>,
     declared: Flags,
     /// The requirements that have been reported as missing.
     missing: Flags,
@@ -56,7 +55,7 @@ impl<'d> Report<'d> {
         Self {
             diagnostics,
             said: HashSet::new(),
-            features: BTreeSet::new(),
+            uses: Vec::new(),
             declared,
             missing: Flags::default(),
             blind: false,
@@ -79,8 +78,8 @@ impl<'d> Report<'d> {
         index.nearest(name)
     }
 
-    /// Says once for each feature that it is not planned yet.
-    fn unsupported(&mut self, unread: &Unread<'_>) {
+    /// Notes once for each feature that it is used.
+    fn uses(&mut self, unread: &Unread<'_>) {
         if unread.keyword.is(":agent") && !self.declared.agents() {
             if self.said.insert((agent_without_multi_agent::RULE.code, String::new())) {
                 self.push(agent_without_multi_agent::agent_without_multi_agent(
@@ -90,11 +89,8 @@ impl<'d> Report<'d> {
             return;
         }
         self.blind |= unread.keyword.is(":private");
-        if self.features.insert(unread.feature) {
-            self.push(unsupported_feature::unsupported_feature(
-                unread.feature.describe(),
-                unread.keyword.span,
-            ));
+        if self.uses.iter().all(|one| one.feature != unread.feature) {
+            self.uses.push(Use { feature: unread.feature, span: unread.keyword.span });
         }
     }
 
@@ -166,7 +162,7 @@ fn describe_parameters(table: &[model::Type], parameters: &[Variable]) -> String
     shown.collect::<Vec<_>>().join(" ")
 }
 
-/// Says what is wrong with a formula that could not be read: mostly that it is not supported.
+/// Says what is wrong with a formula that could not be read, or notes what it uses.
 fn unread(world: &World<'_, '_>, unread: &Unread<'_>, report: &mut Report<'_>) {
     if unread.feature == Feature::ObjectFluents
         && !world.names.object_functions
@@ -186,7 +182,7 @@ fn unread(world: &World<'_, '_>, unread: &Unread<'_>, report: &mut Report<'_>) {
         }
         return;
     }
-    report.unsupported(unread);
+    report.uses(unread);
 }
 
 fn name(name: ast::Name<'_>) -> model::Name {

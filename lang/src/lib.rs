@@ -30,4 +30,4 @@ pub mod print;
 pub mod render;
 
 pub use diagnostic::explain;
-pub use reader::{Kind, detect, parse_domain, parse_problem, read_domain, read_problem};
+pub use reader::{Kind, detect, parse_domain, parse_problem, read_domain, read_problem, refusals};

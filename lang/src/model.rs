@@ -7,6 +7,7 @@ use std::collections::BTreeSet;
 
 use rust_decimal::Decimal;
 
+use crate::ast::Feature;
 use crate::source::Span;
 
 macro_rules! id {
@@ -66,6 +67,15 @@ pub enum Requirement {
     ActionCosts,
 }
 
+/// A part of the language that is used and not yet resolved, so that nothing can run what stands there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Use {
+    /// What is used.
+    pub feature: Feature,
+    /// Where it is used first.
+    pub span: Span,
+}
+
 /// A PDDL domain in which everything is resolved.
 #[derive(Debug, Clone)]
 pub struct Domain {
@@ -85,6 +95,8 @@ pub struct Domain {
     pub axioms: Vec<Axiom>,
     /// The `:action`s.
     pub actions: Vec<Action>,
+    /// What the domain uses beyond that, each once.
+    pub uses: Vec<Use>,
 }
 
 /// A type and where it stands in the hierarchy.
@@ -352,6 +364,8 @@ pub struct Problem {
     pub goal: Formula,
     /// What to minimise.
     pub metric: Option<Metric>,
+    /// What the problem uses beyond that, each once.
+    pub uses: Vec<Use>,
 }
 
 impl Domain {

@@ -4,7 +4,7 @@ use logos::Logos;
 
 use crate::ast;
 use crate::check;
-use crate::diagnostic::Diagnostics;
+use crate::diagnostic::{Diagnostics, unsupported_feature};
 use crate::execute;
 use crate::lexer::TokenKind;
 use crate::model;
@@ -18,6 +18,7 @@ pub fn read_domain(sources: &Sources, id: SourceId) -> (model::Domain, Diagnosti
     let ast = parse_domain(sources, id, &mut diagnostics);
     let domain = check::domain(&ast, &mut diagnostics);
     if !diagnostics.has_errors()
+        && domain.uses.is_empty()
         && let Err(unstratified) = execute::stratified(&domain)
     {
         diagnostics.push(unstratified.diagnostic(&domain));
@@ -38,6 +39,16 @@ pub fn read_problem(
         without_strangers(&mut diagnostics);
     }
     (problem, sorted(diagnostics))
+}
+
+/// One error for each part of the language that is used and cannot be planned or validated.
+///
+/// `uses` are those of a domain and its problem. Such files are right: what is refused is to run them.
+pub fn refusals<'u>(uses: impl IntoIterator<Item = &'u model::Use>) -> Diagnostics {
+    let refuse = |used: &model::Use| {
+        unsupported_feature::unsupported_feature(used.feature.describe(), used.span)
+    };
+    Diagnostics { list: uses.into_iter().map(refuse).collect() }
 }
 
 /// Against the wrong domain nearly every name is unknown. That is one mistake, and it is said once: what else is said of names and types goes.

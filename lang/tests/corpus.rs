@@ -99,6 +99,43 @@ fn tricky_valid_files_have_no_messages() {
     }
 }
 
+/// All files of PDDL or HDDL in a folder and below it.
+fn files_below(folder: &Path, found: &mut Vec<PathBuf>) {
+    let mut entries: Vec<PathBuf> = fs::read_dir(folder)
+        .expect("the folder can be read")
+        .map(|entry| entry.expect("an entry can be read").path())
+        .collect();
+    entries.sort();
+    for path in entries {
+        if path.is_dir() {
+            files_below(&path, found);
+        } else if path.extension().is_some_and(|end| end == "pddl" || end == "hddl") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn multi_agent_domains_have_no_errors() {
+    let Some(folder) = shared().map(|root| root.join("corpus/mapddl")) else { return };
+    let mut files = Vec::new();
+    files_below(&folder, &mut files);
+    let (mut domains, mut wrong) = (0, Vec::new());
+    for file in &files {
+        let mut sources = Sources::default();
+        let text = fs::read_to_string(file).expect("the file can be read");
+        let id = sources.add(file.display().to_string(), text);
+        if let Some(lang::Kind::Domain { .. }) = lang::detect(&sources, id) {
+            domains += 1;
+            let (_, mut diagnostics) = lang::read_domain(&sources, id);
+            diagnostics.list.retain(|one| one.severity == Severity::Error);
+            wrong.push(render::concise(&diagnostics, &sources));
+        }
+    }
+    assert!(domains > 20, "only {domains} domains were read");
+    assert_eq!(wrong.concat(), "");
+}
+
 /// What these need is not read yet: lists across lines, durative actions, reachability, methods.
 const LATER: [&str; 4] = ["W0201", "E0602", "W0701", "E0901"];
 

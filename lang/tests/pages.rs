@@ -39,12 +39,17 @@ fn every_example_gives_its_message() {
         let mut sources = Sources::default();
         let kitchen = sources.add("domain.pddl", include_str!("fixtures/domain.pddl"));
         let file = sources.add(format!("{}.pddl", rule.name), text);
-        let diagnostics = if text.starts_with("(define (problem") {
+        let (uses, mut diagnostics) = if text.starts_with("(define (problem") {
             let (domain, _) = lang::read_domain(&sources, kitchen);
-            lang::read_problem(&sources, file, &domain).1
+            let (problem, diagnostics) = lang::read_problem(&sources, file, &domain);
+            (problem.uses, diagnostics)
         } else {
-            lang::read_domain(&sources, file).1
+            let (domain, diagnostics) = lang::read_domain(&sources, file);
+            (domain.uses, diagnostics)
         };
+        if rule.code == "E0303" {
+            diagnostics.append(lang::refusals(&uses));
+        }
         let rendered = render::full(&diagnostics, &sources, false);
         assert!(
             diagnostics.list.iter().all(|diagnostic| diagnostic.code == rule.code),

@@ -29,6 +29,7 @@ pub(super) fn judge(domain: &Path, problem: &Path, plan: &Path) -> Judgement {
     let (domain, mut found) = lang::read_domain(&reader.sources, domain);
     let (problem, more) = lang::read_problem(&reader.sources, problem, &domain);
     found.append(more);
+    found.append(lang::refusals(domain.uses.iter().chain(&problem.uses)));
     let (listing, more) = lang::plan::read(&reader.sources, plan, &domain, &problem);
     found.append(more);
     if found.has_errors() {

@@ -38,6 +38,7 @@ pub fn domain(ast: &ast::Domain<'_>, diagnostics: &mut Diagnostics) -> Domain {
         functions: Vec::new(),
         axioms: Vec::new(),
         actions: Vec::new(),
+        uses: Vec::new(),
     };
     declarations(ast, &mut domain, &mut names, &mut report);
     let (mut axioms, mut actions) = (Vec::new(), Vec::new());
@@ -60,7 +61,7 @@ pub fn domain(ast: &ast::Domain<'_>, diagnostics: &mut Diagnostics) -> Domain {
                 }
                 actions.push(action(read, &world, &mut report));
             }
-            DomainSection::Unread(unread) => report.unsupported(unread),
+            DomainSection::Unread(unread) => report.uses(unread),
             _ => {}
         }
     }
@@ -68,7 +69,8 @@ pub fn domain(ast: &ast::Domain<'_>, diagnostics: &mut Diagnostics) -> Domain {
         domain.predicates[axiom.head.index()].derived = true;
     }
     changed_derived(&domain, &axioms, &actions, &mut report);
-    (domain.axioms, domain.actions) = (axioms, actions);
+    let uses = report.uses;
+    (domain.axioms, domain.actions, domain.uses) = (axioms, actions, uses);
     domain
 }
 
@@ -261,7 +263,7 @@ fn action<'a>(action: &ast::Action<'a>, world: &World<'_, 'a>, report: &mut Repo
     bindings.scope.parameters = bindings.scope.variables.len() as u32;
     if !action.unread.is_empty() {
         // A field that is not read may bind variables, so nothing can be said about the rest.
-        action.unread.iter().for_each(|unread| report.unsupported(unread));
+        action.unread.iter().for_each(|unread| report.uses(unread));
         let precondition = Formula::truth(span);
         let (effects, increases) = (Vec::new(), Vec::new());
         return Action {

@@ -37,6 +37,7 @@ pub fn problem(ast: &ast::Problem<'_>, domain: &Domain, diagnostics: &mut Diagno
         goal_scope: crate::model::Scope::default(),
         goal: Formula::truth(ast.name.span),
         metric: None,
+        uses: Vec::new(),
     };
     let place = format!("`:types` of domain `{}`", domain.name.text);
     for section in &ast.sections {
@@ -57,7 +58,7 @@ pub fn problem(ast: &ast::Problem<'_>, domain: &Domain, diagnostics: &mut Diagno
                 let mismatch = domain_name_mismatch::domain_name_mismatch;
                 report.push(mismatch(asked.text, asked.span, &domain.name.text, domain.name.span));
             }
-            ProblemSection::Unread(unread) => report.unsupported(unread),
+            ProblemSection::Unread(unread) => report.uses(unread),
             _ => {}
         }
     }
@@ -65,7 +66,7 @@ pub fn problem(ast: &ast::Problem<'_>, domain: &Domain, diagnostics: &mut Diagno
     let places = format!("`:objects` nor in `:constants` of domain `{}`", domain.name.text);
     let world = World { domain, objects: &objects, names: &names, places: &places };
     contents(ast, &world, &mut problem, &mut report);
-    problem.objects = objects;
+    (problem.objects, problem.uses) = (objects, report.uses);
     problem
 }
 
@@ -135,7 +136,7 @@ fn read_metric(
 ) -> Option<Metric> {
     if spelling.is("total-time") && world.names.functions.find(spelling.text).is_none() {
         let feature = ast::Feature::Metrics;
-        report.unsupported(&ast::Unread { feature, keyword: spelling, node: spelling });
+        report.uses(&ast::Unread { feature, keyword: spelling, node: spelling });
         return None;
     }
     let function = scope::function(spelling, world, report)?;
@@ -190,7 +191,7 @@ impl<'a> State<'_, '_, '_, 'a> {
                         self.set(function.name, value, &mut problem.values);
                     }
                 }
-                EntryKind::Unread(unread) => self.report.unsupported(unread),
+                EntryKind::Unread(unread) => self.report.uses(unread),
             }
         }
     }

@@ -10,12 +10,28 @@ use crate::source::{SourceId, Sources};
 /// Checks a domain, or a domain and a problem.
 #[track_caller]
 pub(crate) fn check(texts: &[&str]) {
+    said(texts, false);
+}
+
+/// Checks them as someone does who wants to run them.
+#[track_caller]
+pub(crate) fn run(texts: &[&str]) {
+    said(texts, true);
+}
+
+#[track_caller]
+fn said(texts: &[&str], refuses: bool) {
     let mut sources = Sources::default();
     let ids: Vec<SourceId> = texts.iter().map(|text| sources.add("fixture", bare(text))).collect();
     let (domain, mut diagnostics) = crate::read_domain(&sources, ids[0]);
+    let mut uses = domain.uses.clone();
     if let Some(&problem) = ids.get(1) {
-        let (_, more) = crate::read_problem(&sources, problem, &domain);
+        let (problem, more) = crate::read_problem(&sources, problem, &domain);
         diagnostics.append(more);
+        uses.extend(problem.uses);
+    }
+    if refuses {
+        diagnostics.append(crate::refusals(&uses));
     }
     for (&text, &id) in texts.iter().zip(&ids) {
         let said = annotate(id, &sources, &diagnostics);

@@ -19,11 +19,11 @@ pub fn unsupported_feature(feature: &str, span: Span) -> Diagnostic {
 
 #[cfg(test)]
 mod tests {
-    use crate::diagnostic::fixture::check;
+    use crate::diagnostic::fixture::{check, run};
 
     #[test]
     fn once_for_each_feature() {
-        check(&[
+        run(&[
             "(define (domain d)
   (:requirements :adl :durative-actions :fluents)
   (:types cup plate - dish place)
@@ -44,8 +44,17 @@ mod tests {
     }
 
     #[test]
-    fn a_requirement_alone_is_no_use() {
+    fn reading_alone_refuses_nothing() {
         check(&["(define (domain d)
+  (:requirements :durative-actions)
+  (:predicates (lit))
+  (:durative-action glow :parameters () :duration (= ?duration 5) :effect (at end (lit))))
+"]);
+    }
+
+    #[test]
+    fn a_requirement_alone_is_no_use() {
+        run(&["(define (domain d)
   (:requirements :adl :durative-actions :preferences :timed-initial-literals)
   (:types cup plate - dish place)
   (:constants sink - place)
@@ -58,7 +67,7 @@ mod tests {
 
     #[test]
     fn in_a_problem() {
-        check(&[
+        run(&[
             "(define (domain d)
   (:requirements :adl)
   (:types cup plate - dish place)

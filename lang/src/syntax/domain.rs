@@ -11,7 +11,7 @@ use crate::source::Span;
 use crate::tree::{NodeId, Tree};
 
 /// What can stand directly in a domain, with what is read later.
-const SECTIONS: [&str; 16] = [
+const SECTIONS: [&str; 17] = [
     ":requirements",
     ":types",
     ":constants",
@@ -27,6 +27,7 @@ const SECTIONS: [&str; 16] = [
     ":task",
     ":method",
     ":concurrency-constraint",
+    ":positive-dependence",
     ":invariant",
 ];
 
@@ -114,7 +115,7 @@ impl<'a> Reader<'a, '_> {
                     ":constraints" => Feature::Constraints,
                     ":process" | ":event" => Feature::Processes,
                     ":task" | ":method" => Feature::Hierarchies,
-                    ":concurrency-constraint" => Feature::MultiAgent,
+                    ":concurrency-constraint" | ":positive-dependence" => Feature::MultiAgent,
                     ":invariant" => Feature::Invariants,
                     _ => Feature::Axioms,
                 };

@@ -244,6 +244,7 @@ impl World {
             functions: functions(),
             axioms,
             actions,
+            uses: Vec::new(),
         };
         let problem = problem(&arities, tape);
         Self { domain, problem }
@@ -311,7 +312,7 @@ fn problem(arities: &[usize], tape: &mut Tape) -> Problem {
     let goal = builder.formula(&[], 3);
     let goal_scope = builder.scope;
     let metric = tape.flag().then_some(Metric { function: FunctionId(0), span: SPAN });
-    Problem { name: name("p"), objects, init, values, goal_scope, goal, metric }
+    Problem { name: name("p"), objects, init, values, goal_scope, goal, metric, uses: Vec::new() }
 }
 
 /// The plan as the repair wants it.

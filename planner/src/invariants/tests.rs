@@ -173,6 +173,7 @@ impl Sketch {
             functions: Vec::new(),
             axioms: Vec::new(),
             actions: Vec::new(),
+            uses: Vec::new(),
         };
         let problem = Problem {
             name: name("sketch"),
@@ -186,6 +187,7 @@ impl Sketch {
             goal_scope: Scope::default(),
             goal: Formula::truth(name("").span),
             metric: None,
+            uses: Vec::new(),
         };
         (domain, problem)
     }
