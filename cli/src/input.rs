@@ -3,11 +3,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use lang::Kind;
 use lang::diagnostic::{Diagnostic, Diagnostics, Severity, not_utf8, unsupported_feature};
 use lang::model::{Domain, Problem};
 use lang::render;
 use lang::source::{SourceId, Sources, Span};
+use lang::{Kind, lint};
 use planner::normalize::Unsupported;
 
 use crate::args::OutputFormat;
@@ -83,7 +83,12 @@ impl Reader {
             }
             let domain =
                 domains.iter().find(named).or(domains.last()).expect("one has just been added");
-            found.append(lang::read_problem(&self.sources, problem, domain).1);
+            let (problem, more) = lang::read_problem(&self.sources, problem, domain);
+            let right = !more.has_errors() && !found.has_errors();
+            found.append(more);
+            if right {
+                found.append(lint::problem(domain, &problem));
+            }
         }
         self.settle(&mut found);
         Ok(found)
@@ -102,7 +107,11 @@ impl Reader {
     fn checked(&mut self, path: &Path, found: &mut Diagnostics) -> Result<Domain, Complaint> {
         let id = self.take(path)?;
         let (domain, more) = lang::read_domain(&self.sources, id);
+        let right = !more.has_errors();
         found.append(more);
+        if right {
+            found.append(lint::domain(&domain));
+        }
         Ok(domain)
     }
 

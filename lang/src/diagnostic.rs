@@ -18,6 +18,8 @@ pub mod unexpected_item;
 pub mod not_utf8;
 pub mod unknown_predicate;
 pub mod unused_parameter;
+pub mod shadowed_variable;
+pub mod unused_predicate;
 pub mod unknown_variable;
 pub mod unknown_object;
 pub mod duplicate_definition;
@@ -29,17 +31,23 @@ pub mod type_mismatch;
 pub mod unknown_type;
 pub mod cyclic_types;
 pub mod function_as_predicate;
+pub mod suspicious_type_list;
 pub mod unknown_requirement;
 pub mod missing_requirement;
 pub mod unsupported_feature;
 pub mod wrong_operand_count;
 pub mod contradictory_effect;
+pub mod constant_condition;
+pub mod never_applicable;
 pub mod disjunctive_effect;
 pub mod when_in_condition;
 pub mod unstratified_axioms;
 pub mod uninitialised_function;
+pub mod missing_duration;
 pub mod derived_effect;
 pub mod variable_in_init;
+pub mod goal_unreachable;
+pub mod goal_already_true;
 pub mod agent_without_multi_agent;
 pub mod plan_syntax;
 pub mod plan_unknown_action;
@@ -69,6 +77,8 @@ pub const RULES: &[Rule] = &[
     not_utf8::RULE,
     unknown_predicate::RULE,
     unused_parameter::RULE,
+    shadowed_variable::RULE,
+    unused_predicate::RULE,
     unknown_variable::RULE,
     unknown_object::RULE,
     duplicate_definition::RULE,
@@ -80,17 +90,23 @@ pub const RULES: &[Rule] = &[
     unknown_type::RULE,
     cyclic_types::RULE,
     function_as_predicate::RULE,
+    suspicious_type_list::RULE,
     unknown_requirement::RULE,
     missing_requirement::RULE,
     unsupported_feature::RULE,
     wrong_operand_count::RULE,
     contradictory_effect::RULE,
+    constant_condition::RULE,
+    never_applicable::RULE,
     disjunctive_effect::RULE,
     when_in_condition::RULE,
     unstratified_axioms::RULE,
     uninitialised_function::RULE,
+    missing_duration::RULE,
     derived_effect::RULE,
     variable_in_init::RULE,
+    goal_unreachable::RULE,
+    goal_already_true::RULE,
     agent_without_multi_agent::RULE,
     plan_syntax::RULE,
     plan_unknown_action::RULE,

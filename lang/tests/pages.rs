@@ -1,6 +1,7 @@
 //! The example of each page gives the message that the page explains, and the message reads well.
 
 use lang::diagnostic::RULES;
+use lang::lint;
 use lang::render;
 use lang::source::Sources;
 
@@ -39,16 +40,18 @@ fn every_example_gives_its_message() {
         let mut sources = Sources::default();
         let kitchen = sources.add("domain.pddl", include_str!("fixtures/domain.pddl"));
         let file = sources.add(format!("{}.pddl", rule.name), text);
-        let (uses, mut diagnostics) = if text.starts_with("(define (problem") {
+        let (uses, lints, mut diagnostics) = if text.starts_with("(define (problem") {
             let (domain, _) = lang::read_domain(&sources, kitchen);
             let (problem, diagnostics) = lang::read_problem(&sources, file, &domain);
-            (problem.uses, diagnostics)
+            (problem.uses.clone(), lint::problem(&domain, &problem), diagnostics)
         } else {
             let (domain, diagnostics) = lang::read_domain(&sources, file);
-            (domain.uses, diagnostics)
+            (domain.uses.clone(), lint::domain(&domain), diagnostics)
         };
-        if rule.code == "E0303" {
-            diagnostics.append(lang::refusals(&uses));
+        match rule.code {
+            "E0303" => diagnostics.append(lang::refusals(&uses)),
+            "W0103" | "W0402" | "W0403" | "W0701" | "W0702" => diagnostics.append(lints),
+            _ => {}
         }
         let rendered = render::full(&diagnostics, &sources, false);
         assert!(

@@ -5,8 +5,8 @@ use super::requirement::Need;
 use super::{Report, World, describe_parameters, hierarchy, name};
 use crate::ast::{Name, TypedList};
 use crate::diagnostic::{
-    duplicate_parameter, function_as_predicate, type_mismatch, unknown_function, unknown_object,
-    unknown_predicate, unknown_variable, wrong_arity,
+    duplicate_parameter, function_as_predicate, shadowed_variable, type_mismatch, unknown_function,
+    unknown_object, unknown_predicate, unknown_variable, wrong_arity,
 };
 use crate::model::{
     Atom, FunctionId, ObjectId, PredicateId, Scope, Term, TypeId, Variable, VariableId,
@@ -68,6 +68,17 @@ impl<'a> Bindings<'a> {
                     ));
                     self.unsure = true;
                 } else {
+                    if let Some(outer) = before {
+                        // Being hidden explains why it is not used.
+                        self.used[outer as usize] = true;
+                        let outer = self.scope.variables[outer as usize].name.span;
+                        report.push(shadowed_variable::shadowed_variable(
+                            spelling.text,
+                            &self.owner,
+                            spelling.span,
+                            outer,
+                        ));
+                    }
                     hidden.push((bare(spelling.text), before));
                 }
                 self.scope.variables.push(Variable { name: name(spelling), types: types.clone() });

@@ -10,28 +10,52 @@ use crate::source::{SourceId, Sources};
 /// Checks a domain, or a domain and a problem.
 #[track_caller]
 pub(crate) fn check(texts: &[&str]) {
-    said(texts, false);
+    said(texts, Also::Nothing);
 }
 
 /// Checks them as someone does who wants to run them.
 #[track_caller]
 pub(crate) fn run(texts: &[&str]) {
-    said(texts, true);
+    said(texts, Also::Refusals);
+}
+
+/// Checks them with all lints.
+#[track_caller]
+pub(crate) fn lint(texts: &[&str]) {
+    said(texts, Also::Lints);
+}
+
+/// What is said beside the mistakes.
+enum Also {
+    Nothing,
+    Refusals,
+    Lints,
 }
 
 #[track_caller]
-fn said(texts: &[&str], refuses: bool) {
+fn said(texts: &[&str], also: Also) {
     let mut sources = Sources::default();
     let ids: Vec<SourceId> = texts.iter().map(|text| sources.add("fixture", bare(text))).collect();
     let (domain, mut diagnostics) = crate::read_domain(&sources, ids[0]);
-    let mut uses = domain.uses.clone();
-    if let Some(&problem) = ids.get(1) {
+    let problem = ids.get(1).map(|&problem| {
         let (problem, more) = crate::read_problem(&sources, problem, &domain);
         diagnostics.append(more);
-        uses.extend(problem.uses);
-    }
-    if refuses {
-        diagnostics.append(crate::refusals(&uses));
+        problem
+    });
+    match also {
+        Also::Nothing => {}
+        Also::Refusals => {
+            let more = problem.iter().flat_map(|problem| &problem.uses);
+            diagnostics.append(crate::refusals(domain.uses.iter().chain(more)));
+        }
+        Also::Lints => {
+            diagnostics.append(crate::lint::domain(&domain));
+            diagnostics.append(
+                problem.map_or_else(Default::default, |problem| {
+                    crate::lint::problem(&domain, &problem)
+                }),
+            );
+        }
     }
     for (&text, &id) in texts.iter().zip(&ids) {
         let said = annotate(id, &sources, &diagnostics);

@@ -45,8 +45,8 @@ mod tests {
   (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
   (:action wash
     :parameters (?d - dish)
-;                ^^ W0101: parameter `?d` of action `wash` is never used
     :precondition (exists (?d - dish) (clean ?d))
+;                          ^^ W0102: `?d` hides another `?d` of action `wash`
     :effect (lit)))
 "]);
     }

@@ -4,7 +4,8 @@ use super::list::Names;
 use super::{Reader, lower};
 use crate::ast::{Action, Derived, Domain, DomainSection, Feature, Head, Name, TypedList, Unread};
 use crate::diagnostic::{
-    Diagnostics, duplicate_field, several_formulas, unexpected_item, unknown_field, unknown_section,
+    Diagnostics, duplicate_field, missing_duration, several_formulas, suspicious_type_list,
+    unexpected_item, unknown_field, unknown_section,
 };
 use crate::near::nearest;
 use crate::source::Span;
@@ -98,7 +99,11 @@ impl<'a> Reader<'a, '_> {
         let mut unread = Vec::new();
         let read = match section {
             ":requirements" => DomainSection::Requirements(self.words(item)),
-            ":types" => DomainSection::Types(self.typed_list(content, Names::Words, &mut unread)),
+            ":types" => {
+                let list = self.typed_list(content, Names::Words, &mut unread);
+                self.swallowed(&list);
+                DomainSection::Types(list)
+            }
             ":constants" => {
                 DomainSection::Constants(self.typed_list(content, Names::Words, &mut unread))
             }
@@ -110,6 +115,9 @@ impl<'a> Reader<'a, '_> {
                 None => return,
             },
             _ => {
+                if section == ":durative-action" {
+                    self.duration(item);
+                }
                 let feature = match section {
                     ":durative-action" => Feature::DurativeActions,
                     ":constraints" => Feature::Constraints,
@@ -124,6 +132,58 @@ impl<'a> Reader<'a, '_> {
         };
         sections.push(read);
         sections.extend(unread.into_iter().map(DomainSection::Unread));
+    }
+
+    /// Reports a durative action without a duration.
+    fn duration(&mut self, item: NodeId) {
+        let tree = self.tree;
+        let words: Vec<NodeId> = tree.children(item).collect();
+        let is = |part: &NodeId, word: &str| tree.slice(*part).eq_ignore_ascii_case(word);
+        let name =
+            words.get(1).filter(|&&name| !tree.is_list(name) && !tree.slice(name).starts_with(':'));
+        if words.iter().any(|part| is(part, ":duration") || is(part, "duration")) {
+            return;
+        }
+        let Some(&name) = name else { return };
+        let after =
+            words.iter().position(|part| is(part, ":parameters")).and_then(|at| words.get(at + 1));
+        let end = tree.span(*after.unwrap_or(&name)).end;
+        let place = Span { start: end, end, ..tree.span(name) };
+        self.diagnostics.push(missing_duration::missing_duration(
+            tree.slice(name),
+            tree.span(name),
+            place,
+        ));
+    }
+
+    /// Warns of names that stand on lines of their own and yet get the type after the next `-`.
+    ///
+    /// Where every name has a line of its own, or the lines are full, the list is only wrapped.
+    fn swallowed(&mut self, list: &TypedList<'a>) {
+        let breaks = |from: Span, to: Span| {
+            self.tree.input()[from.end as usize..to.start as usize].contains('\n')
+        };
+        let mut found = Vec::new();
+        for group in &list.groups {
+            let Some(above) = group.types.as_ref().map(|types| types.names[0]) else { continue };
+            let last = group.names.windows(2).rposition(|pair| breaks(pair[0].span, pair[1].span));
+            let Some(last) = last.filter(|_| !above.is("object")) else { continue };
+            let alone =
+                group.names[..=last].windows(2).all(|pair| breaks(pair[0].span, pair[1].span));
+            if !alone || last + 2 >= group.names.len() {
+                continue;
+            }
+            let names: Vec<&str> = group.names.iter().map(|name| name.text).collect();
+            let first = group.names[0];
+            found.push(suspicious_type_list::suspicious_type_list(
+                first.text,
+                first.span,
+                above.text,
+                above.span,
+                &names.join(" "),
+            ));
+        }
+        found.into_iter().for_each(|diagnostic| self.diagnostics.push(diagnostic));
     }
 
     /// The words of a list after its first; lists among them are reported.
