@@ -66,6 +66,12 @@ pub enum OutputFormat {
     Full,
     /// One line each, for editors and scripts.
     Concise,
+    /// One JSON document, as docs/diagnostics.schema.json describes it.
+    Json,
+    /// SARIF 2.1.0, for tools that gather findings.
+    Sarif,
+    /// Commands that mark lines in a GitHub workflow.
+    Github,
 }
 
 /// `caveat check`.
@@ -78,6 +84,8 @@ Examples:
       a domain and problems of it
   caveat check --output-format concise problem.pddl
       a problem, with the domain that lies beside it; one line for each mistake
+  caveat check --fix domain.pddl
+      mend what can only have been meant in one way
 
 Exit codes: 0 nothing wrong, 1 something is wrong (warnings count), 2 a file could not be read.")]
 pub struct Check {
@@ -87,6 +95,9 @@ pub struct Check {
     /// How diagnostics look.
     #[arg(long, value_name = "FORMAT", default_value = "full")]
     pub output_format: OutputFormat,
+    /// Apply the safe fixes to the files, then say what is left.
+    #[arg(long)]
+    pub fix: bool,
 }
 
 /// `caveat plan`.

@@ -7,15 +7,23 @@ use crate::terminal::Terminal;
 
 /// Checks every file: domains alone, problems with the domain that is among the files or else lies beside them.
 pub fn run(arguments: &Check, terminal: &mut Terminal) -> Exit {
-    let mut reader = Reader::default();
-    match reader.check(&arguments.files) {
-        Ok(found) => {
+    let checked = if arguments.fix {
+        Reader::fix(&arguments.files)
+    } else {
+        let mut reader = Reader::default();
+        reader.check(&arguments.files).map(|found| (reader, found, 0))
+    };
+    match checked {
+        Ok((reader, found, fixed)) => {
             terminal.data(input::rendered(
                 &reader.sources,
                 &found,
                 arguments.output_format,
                 terminal.data_colour,
             ));
+            if arguments.fix {
+                terminal.say(format!("{fixed} fixed."));
+            }
             terminal.say(summary(&found, arguments.files.len()));
             if found.list.is_empty() { Exit::Done } else { Exit::Findings }
         }

@@ -1,13 +1,14 @@
 //! Paths of a domain and a problem go in; both as checked models come out, or what is wrong with them is said.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use lang::diagnostic::{Diagnostic, Diagnostics, Severity, not_utf8, unsupported_feature};
 use lang::model::{Domain, Problem};
-use lang::render;
 use lang::source::{SourceId, Sources, Span};
 use lang::{Kind, lint};
+use lang::{mend, render};
 use planner::normalize::Unsupported;
 
 use crate::args::OutputFormat;
@@ -23,6 +24,8 @@ pub struct Reader {
     taken: Vec<(PathBuf, SourceId)>,
     /// For each text that is not UTF-8 throughout, the diagnostic that says so: what else is wrong with it follows from that.
     broken: Vec<Diagnostic>,
+    /// Texts that stand for those of files, since they are to be written there.
+    mended: BTreeMap<PathBuf, String>,
 }
 
 /// A task.
@@ -94,6 +97,45 @@ impl Reader {
         Ok(found)
     }
 
+    /// Applies safe fixes to the files in `paths` until there are none left, and writes those that changed.
+    ///
+    /// The result is the reader of the mended texts, what is left, and how many fixes were applied. A round of fixes after which there
+    /// are more errors than before is taken back.
+    pub fn fix(paths: &[PathBuf]) -> Result<(Self, Diagnostics, usize), Complaint> {
+        let mut reader = Self::default();
+        let mut found = reader.check(paths)?;
+        let mut fixed = 0;
+        for _ in 0..ROUNDS {
+            let mut mended = reader.mended.clone();
+            let mut count = 0;
+            for path in paths.iter().filter(|path| !files::is_stdin(path)) {
+                let id = reader.take(path)?;
+                if reader.broken.iter().any(|broken| broken.primary.span.source == id) {
+                    continue;
+                }
+                let (text, applied) = mend::safely(&found, &reader.sources, id);
+                if applied > 0 {
+                    count += applied;
+                    mended.insert(path.clone(), text);
+                }
+            }
+            if count == 0 {
+                break;
+            }
+            let mut next = Self { mended, ..Self::default() };
+            let left = next.check(paths)?;
+            if errors(&left) > errors(&found) {
+                break;
+            }
+            fixed += count;
+            (reader, found) = (next, left);
+        }
+        for (path, text) in &reader.mended {
+            files::write(path, text.as_bytes())?;
+        }
+        Ok((reader, found, fixed))
+    }
+
     /// Puts the diagnostics of texts that are not UTF-8 in the place of all others about them.
     pub fn settle(&self, found: &mut Diagnostics) {
         for broken in &self.broken {
@@ -119,6 +161,11 @@ impl Reader {
     pub fn take(&mut self, path: &Path) -> Result<SourceId, Complaint> {
         if let Some((_, id)) = self.taken.iter().find(|(taken, _)| taken == path) {
             return Ok(*id);
+        }
+        if let Some(text) = self.mended.get(path) {
+            let id = self.sources.add(files::name(path), text.clone());
+            self.taken.push((path.to_path_buf(), id));
+            return Ok(id);
         }
         let text = files::read(path)?;
         let end = text.text.len() as u32;
@@ -298,6 +345,13 @@ pub fn load(
     Ok(Input { reader, domain, problem })
 }
 
+/// How often fixes are applied at most, since one may uncover another.
+const ROUNDS: usize = 8;
+
+fn errors(found: &Diagnostics) -> usize {
+    found.list.iter().filter(|one| one.severity == Severity::Error).count()
+}
+
 /// What the planner does not plan, as a diagnostic.
 pub fn unsupported(unsupported: &Unsupported) -> Diagnostic {
     unsupported_feature::RULE.at(
@@ -317,6 +371,9 @@ pub fn rendered(
     match format {
         OutputFormat::Full => render::full(found, sources, colour),
         OutputFormat::Concise => render::concise(found, sources),
+        OutputFormat::Json => render::json(found, sources),
+        OutputFormat::Sarif => render::sarif(found, sources),
+        OutputFormat::Github => render::github(found, sources),
     }
 }
 

@@ -178,9 +178,20 @@ pub struct Label {
     pub text: String,
 }
 
+/// How sure it is that a [`Fix`] is what is wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Applicability {
+    /// The text means what it was taken to mean already; a program may apply it.
+    Safe,
+    /// One likely way of several; a person chooses.
+    Suggested,
+}
+
 /// A change of the text that mends the mistake without changing anything else.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fix {
+    /// Whether a program may apply it unasked.
+    pub applicability: Applicability,
     /// What it does, as an instruction: "replace with `:predicates`".
     pub title: String,
     /// The ranges to replace, and by what.
@@ -231,7 +242,20 @@ impl Diagnostic {
         span: Span,
         replacement: impl Into<String>,
     ) -> Self {
-        self.fixes.push(Fix { title: title.into(), edits: vec![(span, replacement.into())] });
+        self.fixes.push(Fix {
+            applicability: Applicability::Suggested,
+            title: title.into(),
+            edits: vec![(span, replacement.into())],
+        });
+        self
+    }
+
+    /// Says that the last fix only writes what the text was taken to mean anyway.
+    #[must_use]
+    pub fn safely(mut self) -> Self {
+        if let Some(fix) = self.fixes.last_mut() {
+            fix.applicability = Applicability::Safe;
+        }
         self
     }
 

@@ -1,6 +1,10 @@
-//! [`Diagnostics`] go in; text for people comes out.
+//! [`Diagnostics`] go in; text for people comes out, and in the modules below text for programs.
 //!
 //! Lines and columns are made here and nowhere else: lines from 1, columns from 1 in Unicode scalar values.
+
+mod json;
+mod sarif;
+mod github;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -10,6 +14,10 @@ use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Origin, Render
 
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity};
 use crate::source::{SourceId, Sources, Span};
+
+pub use github::github;
+pub use json::json;
+pub use sarif::sarif;
 
 /// Lines longer than this many bytes are cut around what is marked.
 const LONG: usize = 110;
@@ -271,6 +279,11 @@ impl Lines {
     /// The line, from 0, that contains the byte.
     fn row(&mut self, sources: &Sources, source: SourceId, byte: u32) -> usize {
         self.of(sources, source).partition_point(|&start| start <= byte) - 1
+    }
+
+    /// Line and column of the first byte and of the byte after the last.
+    fn ends(&mut self, sources: &Sources, span: Span) -> [(usize, usize); 2] {
+        [span.start, span.end].map(|byte| self.position(sources, span.source, byte))
     }
 
     /// The bytes of a line without its end.

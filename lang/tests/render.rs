@@ -88,3 +88,98 @@ fn bytes_that_are_no_text_are_reported_where_they_are() {
     let list = vec![not_utf8::not_utf8(19, Span::new(id, 19, 19))];
     insta::assert_snapshot!(render::full(&Diagnostics { list }, &sources, false));
 }
+
+/// A problem that does not fit its domain, so that a message speaks of both files.
+fn both() -> (Diagnostics, Sources) {
+    let mut sources = Sources::default();
+    let domain = sources.add(
+        "my domain.pddl",
+        "(define (domain d)\n (:requirements :typng)\n (:types cup)\n (:predicates (lit) (clean ?c - cup)))\n",
+    );
+    let problem = sources.add(
+        "p.pddl",
+        "(define (problem p) (:domain d)\n (:objects é - cup)\n (:init (clean é é))\n (:goal (lti)))\n",
+    );
+    let (domain, mut diagnostics) = lang::read_domain(&sources, domain);
+    diagnostics.append(lang::read_problem(&sources, problem, &domain).1);
+    (diagnostics, sources)
+}
+
+#[test]
+fn json_for_programs() {
+    let (diagnostics, sources) = both();
+    insta::assert_snapshot!(render::json(&diagnostics, &sources));
+}
+
+#[test]
+fn commands_for_github() {
+    let (diagnostics, sources) = both();
+    insta::assert_snapshot!(render::github(&diagnostics, &sources));
+}
+
+#[test]
+fn sarif_for_tools() {
+    let (diagnostics, sources) = both();
+    let text = render::sarif(&diagnostics, &sources);
+    let mut log: serde_json::Value = serde_json::from_str(&text).expect("SARIF is JSON");
+    let driver = &mut log["runs"][0]["tool"]["driver"];
+    let rules = driver["rules"].as_array().expect("a list of rules").clone();
+    assert_eq!(rules.len(), lang::diagnostic::RULES.len());
+    // One rule shows how all look.
+    driver["rules"] = serde_json::json!([rules[0]]);
+    for result in log["runs"][0]["results"].as_array().expect("a list of results") {
+        let index = result["ruleIndex"].as_u64().expect("an index");
+        assert_eq!(rules[index as usize]["id"], result["ruleId"]);
+    }
+    insta::assert_snapshot!(serde_json::to_string_pretty(&log).expect("a value can be written"));
+}
+
+/// Whether a value is as the published schema says: as much of JSON Schema as that uses.
+fn conforms(value: &serde_json::Value, schema: &serde_json::Value, root: &serde_json::Value) {
+    let schema = match schema["$ref"].as_str() {
+        Some(path) => root.pointer(path.trim_start_matches('#')).expect("what is named exists"),
+        None => schema,
+    };
+    if let Some(wanted) = schema.get("const") {
+        assert_eq!(value, wanted);
+    }
+    if let Some(choice) = schema["enum"].as_array() {
+        assert!(choice.contains(value), "{value} is none of {choice:?}");
+    }
+    let kind = match value {
+        serde_json::Value::Null => "null",
+        serde_json::Value::Bool(_) => "boolean",
+        serde_json::Value::Number(_) => "integer",
+        serde_json::Value::String(_) => "string",
+        serde_json::Value::Array(_) => "array",
+        serde_json::Value::Object(_) => "object",
+    };
+    match &schema["type"] {
+        serde_json::Value::String(wanted) => assert_eq!(kind, wanted, "{value}"),
+        serde_json::Value::Array(wanted) => {
+            assert!(wanted.iter().any(|one| one == kind), "{value}")
+        }
+        _ => {}
+    }
+    for item in value.as_array().into_iter().flatten() {
+        conforms(item, &schema["items"], root);
+    }
+    let Some(fields) = value.as_object() else { return };
+    for required in schema["required"].as_array().expect("an object says what it must have") {
+        let name = required.as_str().expect("a name");
+        assert!(fields.contains_key(name), "{name} is missing");
+    }
+    for (name, field) in fields {
+        let schema = schema["properties"].get(name);
+        conforms(field, schema.unwrap_or_else(|| panic!("{name} is not described")), root);
+    }
+}
+
+#[test]
+fn json_is_as_the_schema_says() {
+    let (diagnostics, sources) = both();
+    let value = serde_json::from_str(&render::json(&diagnostics, &sources)).expect("JSON");
+    let schema = serde_json::from_str(include_str!("../../docs/diagnostics.schema.json"))
+        .expect("the schema is JSON");
+    conforms(&value, &schema, &schema);
+}

@@ -21,6 +21,7 @@ pub fn dash_not_separated(text: &str, span: Span) -> Diagnostic {
     )
     .help(format!("write `- {name}`"))
     .fix("insert a space after `-`", span, format!("- {name}"))
+    .safely()
 }
 
 #[cfg(test)]

@@ -30,6 +30,7 @@ pub fn before_section(
             insertion.0,
             ")".repeat(insertion.1),
         )
+        .safely()
 }
 
 /// The text ends while lists are open; `insertion` says where how many `)` are missing.

@@ -18,11 +18,10 @@ pub fn unexpected_close_paren(span: Span, closes_definition: bool) -> Diagnostic
     } else {
         "nothing is open here"
     };
-    RULE.at(span, "this `)` has no matching `(`", label).help("remove it").fix(
-        "remove this `)`",
-        span,
-        "",
-    )
+    RULE.at(span, "this `)` has no matching `(`", label)
+        .help("remove it")
+        .fix("remove this `)`", span, "")
+        .safely()
 }
 
 #[cfg(test)]

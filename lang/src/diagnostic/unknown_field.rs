@@ -13,7 +13,9 @@ pub const RULE: Rule = Rule {
 
 /// `name` is no field of `owner`, which is something like "action `drive`".
 pub fn unknown_field(owner: &str, name: &str, span: Span, near: Option<&str>) -> Diagnostic {
-    RULE.at(span, format!("unknown field `{name}` in {owner}"), "not a field of it").suggest(near)
+    RULE.at(span, format!("unknown field `{name}` in {owner}"), "not a field of it")
+        .suggest(near)
+        .safely()
 }
 
 #[cfg(test)]

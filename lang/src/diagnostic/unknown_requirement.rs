@@ -13,7 +13,9 @@ pub const RULE: Rule = Rule {
 
 /// PDDL has no requirement `name`.
 pub fn unknown_requirement(name: &str, span: Span, near: Option<&str>) -> Diagnostic {
-    RULE.at(span, format!("unknown requirement `{name}`"), "not a PDDL requirement").suggest(near)
+    RULE.at(span, format!("unknown requirement `{name}`"), "not a PDDL requirement")
+        .suggest(near)
+        .safely()
 }
 
 #[cfg(test)]

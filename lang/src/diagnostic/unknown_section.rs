@@ -21,7 +21,7 @@ pub fn unknown_section(whole: &str, name: &str, span: Span, near: Option<&str>) 
         }
         _ => format!("not a section of a {whole}"),
     };
-    RULE.at(span, format!("unknown {whole} section `{name}`"), label).suggest(near)
+    RULE.at(span, format!("unknown {whole} section `{name}`"), label).suggest(near).safely()
 }
 
 #[cfg(test)]

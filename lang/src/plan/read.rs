@@ -12,7 +12,7 @@ use crate::diagnostic::plan_type_mismatch::plan_type_mismatch;
 use crate::diagnostic::plan_unknown_action::plan_unknown_action;
 use crate::diagnostic::plan_unknown_object::plan_unknown_object;
 use crate::diagnostic::plan_wrong_arity::plan_wrong_arity;
-use crate::diagnostic::{Diagnostics, Fix};
+use crate::diagnostic::{Applicability, Diagnostics, Fix};
 use crate::model::{ActionId, Domain, Name, ObjectId, Problem, TypeId, Variable};
 use crate::near::nearest;
 use crate::source::{SourceId, Sources, Span};
@@ -225,7 +225,12 @@ impl<'a> Reader<'a> {
             let span = self.span(open);
             let after = Span::new(self.source, last.end as u32, last.end as u32);
             self.report("a step that is not closed", span, "this `(` has no `)`", None);
-            let fix = Fix { title: "add the `)`".to_owned(), edits: vec![(after, ")".to_owned())] };
+            let applicability = Applicability::Safe;
+            let fix = Fix {
+                applicability,
+                title: "add the `)`".to_owned(),
+                edits: vec![(after, ")".to_owned())],
+            };
             self.diagnostics.list.last_mut().expect("it was pushed above").fixes.push(fix);
         }
         self.skip_duration();
