@@ -78,8 +78,6 @@ pub enum OutputFormat {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  caveat check domain.pddl
-      a domain alone
   caveat check domain.pddl p01.pddl p02.pddl
       a domain and problems of it
   caveat check --output-format concise problem.pddl

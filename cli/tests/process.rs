@@ -456,3 +456,56 @@ fn help_is_data_and_has_examples() {
     }
     insta::assert_snapshot!("help", shown);
 }
+
+/// A domain with two mistakes that a program may mend, and one that it may not.
+const MENDABLE: &str = "(define (domain d)
+ (:requirements :typng)
+ (:predicate (lit))
+ (:action a :effect (lti)))
+";
+
+#[test]
+fn safe_fixes_are_applied_and_the_rest_is_said() {
+    let desk = Desk::new();
+    desk.write("domain.pddl", MENDABLE);
+    let run = desk.run("check --fix --output-format concise domain.pddl").ends_with(1);
+    insta::assert_snapshot!(run.shown());
+    let mended = fs::read_to_string(desk.path("domain.pddl")).expect("the file is there");
+    assert_eq!(
+        mended,
+        MENDABLE.replace(":typng", ":typing").replace(":predicate ", ":predicates ")
+    );
+    desk.run("check --fix domain.pddl").ends_with(1);
+    let again = fs::read_to_string(desk.path("domain.pddl")).expect("the file is there");
+    assert_eq!(again, mended, "nothing is left to mend");
+}
+
+#[test]
+fn diagnostics_for_programs_are_the_whole_output() {
+    let desk = Desk::new();
+    desk.write("domain.pddl", MENDABLE);
+    for (format, key) in [("json", "diagnostics"), ("sarif", "runs")] {
+        let output = desk.command(&format!("check --output-format {format} domain.pddl")).output();
+        let output = output.expect("the program can be run");
+        assert_eq!(output.status.code(), Some(1));
+        let value: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        assert!(value[key].is_array(), "{value}");
+    }
+}
+
+#[test]
+fn what_cannot_be_planned_checks_clean() {
+    let desk = Desk::new();
+    let text = "(define (domain d)
+ (:requirements :durative-actions)
+ (:predicates (lit))
+ (:durative-action glow :parameters () :duration (= ?duration 5) :effect (at end (lit))))
+";
+    desk.write("domain.pddl", text).write(
+        "problem.pddl",
+        "(define (problem p) (:domain d) (:init) (:goal (lit)))
+",
+    );
+    desk.run("check domain.pddl problem.pddl").ends_with(0);
+    desk.run("plan domain.pddl problem.pddl").ends_with(34);
+}

@@ -157,7 +157,7 @@ fn conforms(value: &serde_json::Value, schema: &serde_json::Value, root: &serde_
     match &schema["type"] {
         serde_json::Value::String(wanted) => assert_eq!(kind, wanted, "{value}"),
         serde_json::Value::Array(wanted) => {
-            assert!(wanted.iter().any(|one| one == kind), "{value}")
+            assert!(wanted.iter().any(|one| one == kind), "{value}");
         }
         _ => {}
     }

@@ -26,6 +26,7 @@ pub(crate) fn lint(texts: &[&str]) {
 }
 
 /// What is said beside the mistakes.
+#[derive(Clone, Copy)]
 enum Also {
     Nothing,
     Refusals,

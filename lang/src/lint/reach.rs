@@ -1,5 +1,7 @@
 //! A problem goes in; the predicates come out that are needed and can never be true, by a relaxation that looks at predicates only.
 
+use std::fmt::Write;
+
 use super::condition::conjuncts;
 use crate::diagnostic::{Diagnostics, goal_unreachable};
 use crate::model::{Domain, Formula, PredicateId, Problem};
@@ -70,7 +72,7 @@ fn consequence(wanted: bool, needing: &[&Rule<'_>]) -> String {
     names.truncate(SHOWN);
     let mut listed = names.join(", ");
     if more > 0 {
-        listed.push_str(&format!(" and {more} more"));
+        write!(listed, " and {more} more").expect("writing to a string cannot fail");
     }
     match (wanted, listed.as_str()) {
         (true, "") => "the goal needs it, so there is no plan".to_owned(),

@@ -1,5 +1,7 @@
 //! Diagnostics go in; a log in the Static Analysis Results Interchange Format comes out (SARIF 2.1.0, OASIS 2020).
 
+use std::fmt::Write;
+
 use serde_json::{Value, json};
 
 use super::{Lines, word};
@@ -108,7 +110,7 @@ fn uri(path: &str) -> String {
             b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' | b'/' => {
                 out.push(char::from(byte));
             }
-            _ => out.push_str(&format!("%{byte:02X}")),
+            _ => write!(out, "%{byte:02X}").expect("writing to a string cannot fail"),
         }
     }
     out

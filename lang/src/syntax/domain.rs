@@ -183,7 +183,7 @@ impl<'a> Reader<'a, '_> {
                 &names.join(" "),
             ));
         }
-        found.into_iter().for_each(|diagnostic| self.diagnostics.push(diagnostic));
+        self.diagnostics.append(Diagnostics { list: found });
     }
 
     /// The words of a list after its first; lists among them are reported.
