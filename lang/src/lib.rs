@@ -28,6 +28,7 @@ pub mod plan;
 pub mod execute;
 pub mod validate;
 pub mod print;
+pub mod format;
 pub mod mend;
 pub mod render;
 

@@ -66,6 +66,11 @@ impl<'a> Tree<'a> {
         self.nodes[id.0 as usize]
     }
 
+    /// All nodes, in the order of the text.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
     /// Where the node stands.
     pub fn span(&self, id: NodeId) -> Span {
         let node = self.node(id);

@@ -1,0 +1,288 @@
+//! Text goes in; the same tokens and comments come out, laid out as a careful person would.
+//!
+//! Line ends that the author set between facts, names and operands stay.
+//! What is added is what everybody agrees on: sections and fields on lines of their own, two blanks for each level,
+//! one operand in a line where a conjunction does not fit into one.
+//! Nothing here recurses on the depth of the text.
+
+use crate::diagnostic::Diagnostics;
+use crate::source::SourceId;
+use crate::tree::{self, Node, NodeId, NodeKind, Tree};
+
+/// Lines are kept shorter than this, in Unicode scalar values, where there is a place to break them.
+const WIDTH: usize = 80;
+
+/// How far each level stands to the right of the line on which it opens.
+const STEP: usize = 2;
+
+/// Lays `text` out. A text whose parentheses do not match comes back as it is, since its structure is a guess.
+///
+/// The result has the same tokens and comments in the same order, ends with a line end, and formats to itself.
+pub fn format(text: &str) -> String {
+    let tree = tree::parse(SourceId(0), text, &mut Diagnostics::default());
+    let sound = |node: &Node| !matches!(node.kind, NodeKind::OpenList | NodeKind::Stray);
+    if !tree.nodes().iter().all(sound) {
+        return text.to_owned();
+    }
+    let line_ends = text.bytes().enumerate().filter(|&(_, byte)| byte == b'\n');
+    let line_ends = line_ends.map(|(at, _)| at as u32).collect();
+    let mut layout = Layout {
+        tree: &tree,
+        line_ends,
+        out: String::with_capacity(text.len() + text.len() / 8),
+        column: 0,
+        indent: 0,
+        open: Vec::new(),
+        ends: 0,
+        after_comment: false,
+    };
+    layout.all();
+    layout.out
+}
+
+/// What kind of list it is, as far as that says where lines end.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Shape {
+    /// `(define …)`
+    Definition,
+    /// `(:action NAME :field value …)`
+    Fields,
+    /// `(and …)`, `(or …)`
+    Operands,
+    /// `(:predicates …)`, `(:functions …)`
+    Declarations,
+    /// Anything else.
+    Plain,
+}
+
+/// A list that is laid out over several lines.
+struct Frame {
+    next: u32,
+    /// Of the line on which it opens.
+    indent: usize,
+    shape: Shape,
+    /// How many words and lists of it have been written.
+    written: usize,
+    /// The last of them, if it was a word.
+    last: Option<NodeId>,
+}
+
+/// How something is set off from what stands before it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Gap {
+    Line,
+    Blank,
+    /// A line end if the author set one, or where the line would get too long.
+    Author,
+}
+
+struct Layout<'t, 'a> {
+    tree: &'t Tree<'a>,
+    /// Where the lines of the input end.
+    line_ends: Vec<u32>,
+    out: String,
+    /// How much of the current line is written.
+    column: usize,
+    /// How far the current line is indented.
+    indent: usize,
+    open: Vec<Frame>,
+    /// How many line ends have been read since the last word or comment.
+    ends: usize,
+    after_comment: bool,
+}
+
+impl Layout<'_, '_> {
+    fn all(&mut self) {
+        let nodes = self.tree.nodes();
+        let mut at = 0;
+        while at < nodes.len() as u32 {
+            self.close(at);
+            let (id, node) = (NodeId(at), nodes[at as usize]);
+            at += 1;
+            match node.kind {
+                NodeKind::Space => {
+                    self.ends += self.tree.slice(id).bytes().filter(|&byte| byte == b'\n').count();
+                }
+                NodeKind::Comment => self.comment(id),
+                NodeKind::Atom => {
+                    self.separate(id, self.tree.slice(id).chars().count());
+                    self.write(self.tree.slice(id));
+                    self.count(Some(id));
+                }
+                _ => at = self.list(id, node),
+            }
+        }
+        self.close(nodes.len() as u32);
+        if !self.out.is_empty() {
+            self.out.push('\n');
+        }
+    }
+
+    /// Writes a list in one piece if it stands in one line and fits, and else its parenthesis; returns the node to go on with.
+    fn list(&mut self, id: NodeId, node: Node) -> u32 {
+        let flat = self.flat(id, node);
+        self.separate(id, flat.as_ref().map_or(1, |flat| flat.chars().count()));
+        let whole = flat.filter(|flat| self.column + flat.chars().count() <= WIDTH);
+        self.count(None);
+        if let Some(flat) = whole {
+            self.write(&flat);
+            return node.next;
+        }
+        self.write("(");
+        let shape = self.shape(id);
+        self.open.push(Frame {
+            next: node.next,
+            indent: self.indent,
+            shape,
+            written: 0,
+            last: None,
+        });
+        id.0 + 1
+    }
+
+    /// The list in one line, if the author wrote it in one line and it is short.
+    fn flat(&self, id: NodeId, node: Node) -> Option<String> {
+        let first = self.line_ends.partition_point(|&end| end < node.start);
+        let broken = self.line_ends.get(first).is_some_and(|&end| end < node.end);
+        if broken || self.shape(id) == Shape::Definition {
+            return None;
+        }
+        let nodes = self.tree.nodes();
+        let mut flat = String::new();
+        let mut open: Vec<u32> = Vec::new();
+        for at in id.0..node.next {
+            while open.pop_if(|next| *next == at).is_some() {
+                flat.push(')');
+            }
+            let one = nodes[at as usize];
+            if !matches!(one.kind, NodeKind::Atom | NodeKind::List) {
+                continue;
+            }
+            if !flat.is_empty() && !flat.ends_with('(') {
+                flat.push(' ');
+            }
+            if one.kind == NodeKind::List {
+                flat.push('(');
+                open.push(one.next);
+            } else {
+                flat.push_str(self.tree.slice(NodeId(at)));
+            }
+            if flat.len() > 4 * WIDTH {
+                return None;
+            }
+        }
+        flat.push_str(&")".repeat(open.len()));
+        Some(flat)
+    }
+
+    fn shape(&self, id: NodeId) -> Shape {
+        let Some(first) = self.tree.children(id).next().filter(|&first| !self.tree.is_list(first))
+        else {
+            return Shape::Plain;
+        };
+        match self.tree.slice(first).to_ascii_lowercase().as_str() {
+            "define" => Shape::Definition,
+            ":action"
+            | ":durative-action"
+            | ":process"
+            | ":event"
+            | ":method"
+            | ":task"
+            | ":htn"
+            | ":concurrency-constraint" => Shape::Fields,
+            "and" | "or" => Shape::Operands,
+            ":predicates" | ":functions" => Shape::Declarations,
+            _ => Shape::Plain,
+        }
+    }
+
+    /// Ends all lists that end before the node `at`.
+    fn close(&mut self, at: u32) {
+        while let Some(frame) = self.open.pop_if(|frame| frame.next == at) {
+            if self.after_comment {
+                self.line(frame.indent, false);
+            }
+            self.write(")");
+            self.ends = 0;
+        }
+    }
+
+    fn comment(&mut self, id: NodeId) {
+        let own_line = self.ends > 0 || self.after_comment;
+        if self.out.is_empty() {
+        } else if own_line {
+            self.line(self.inner(), self.ends > 1);
+        } else {
+            self.write(" ");
+        }
+        self.write(self.tree.slice(id).trim_end());
+        (self.after_comment, self.ends) = (true, 0);
+    }
+
+    /// Writes what stands between the next item, of which `width` is to go on the line, and the one before it.
+    fn separate(&mut self, id: NodeId, width: usize) {
+        let inner = self.inner();
+        let blank = self.ends > 1;
+        let (first, gap) = match self.open.last() {
+            None => (self.out.is_empty(), Gap::Line),
+            Some(frame) => (frame.written == 0, self.gap(frame, id)),
+        };
+        let breaks = self.after_comment
+            || match gap {
+                Gap::Line => true,
+                Gap::Blank => false,
+                Gap::Author => self.ends > 0 || self.column + 1 + width > WIDTH,
+            };
+        if first && !self.after_comment {
+        } else if breaks {
+            self.line(inner, blank);
+        } else {
+            self.write(" ");
+        }
+        self.ends = 0;
+    }
+
+    fn gap(&self, frame: &Frame, id: NodeId) -> Gap {
+        let word = (!self.tree.is_list(id)).then(|| self.tree.slice(id));
+        let last = frame.last.map(|last| self.tree.slice(last));
+        if word == Some("-") || last == Some("-") {
+            return Gap::Blank;
+        }
+        match frame.shape {
+            Shape::Definition if frame.written == 1 => Gap::Blank,
+            Shape::Definition => Gap::Line,
+            Shape::Fields if word.is_some_and(|word| word.starts_with(':')) => Gap::Line,
+            Shape::Fields
+                if frame.written == 1 || last.is_some_and(|last| last.starts_with(':')) =>
+            {
+                Gap::Blank
+            }
+            Shape::Operands | Shape::Declarations if word.is_none() => Gap::Line,
+            _ => Gap::Author,
+        }
+    }
+
+    /// How far the items of the innermost list are indented.
+    fn inner(&self) -> usize {
+        self.open.last().map_or(0, |frame| frame.indent + STEP)
+    }
+
+    fn count(&mut self, word: Option<NodeId>) {
+        if let Some(frame) = self.open.last_mut() {
+            frame.written += 1;
+            frame.last = word;
+        }
+    }
+
+    fn write(&mut self, text: &str) {
+        self.out.push_str(text);
+        self.column += text.chars().count();
+        self.after_comment = false;
+    }
+
+    fn line(&mut self, indent: usize, blank: bool) {
+        self.out.push_str(if blank { "\n\n" } else { "\n" });
+        self.out.extend(std::iter::repeat_n(' ', indent));
+        (self.column, self.indent, self.after_comment) = (indent, indent, false);
+    }
+}

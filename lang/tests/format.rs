@@ -1,0 +1,154 @@
+//! Layout: what a person sees, and what must hold for any text.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use lang::format::format;
+use lang::lexer::{TokenKind, lex};
+use proptest::prelude::*;
+
+/// All words, parentheses and comments.
+fn tokens(text: &str) -> Vec<&str> {
+    lex(text)
+        .into_iter()
+        .filter(|token| token.kind != TokenKind::Space)
+        .map(|token| text[token.start as usize..token.end as usize].trim_end())
+        .collect()
+}
+
+#[track_caller]
+fn holds(text: &str) {
+    let once = format(text);
+    assert_eq!(tokens(text), tokens(&once), "tokens changed:\n{text}\n---\n{once}");
+    assert_eq!(once, format(&once), "formatting again changes:\n{text}");
+}
+
+#[test]
+fn a_domain_with_comments_everywhere() {
+    insta::assert_snapshot!(format(
+        "; the kitchen
+(define
+ (domain kitchen) ; a name
+(:requirements :strips :typing)
+   (:types cup plate - dish ; what is washed
+      dish room
+      - object)
+
+
+(:predicates (clean ?d - dish) ; washed
+ (in ?d - dish ?r - room) (lit ?r - room))
+  ;@ (:measured (temperature ?d - dish))
+  (:action wash :parameters (?d - dish
+     ?r - room)
+   :precondition
+     (and (in ?d ?r) (lit ?r)
+       ; nothing else
+     )
+   :effect (and (clean ?d)
+        (forall (?other - dish) (when (and (in ?other ?r) (clean ?other)) (not (lit ?r)))) (not (in ?d ?r))))
+(:action rest :parameters () :precondition () :effect (and )))
+;; the end
+"
+    ));
+}
+
+#[test]
+fn a_problem_keeps_the_lines_of_its_facts() {
+    insta::assert_snapshot!(format(
+        "(define (problem p) (:domain kitchen)
+(:objects red blue - cup   hall
+ - room)
+(:init (in red hall) (in blue hall)
+       (lit hall)
+
+       ; costs
+       (= (total-cost) 0))
+  (:goal (and (clean red) (clean blue))) (:metric minimize (total-cost)))"
+    ));
+}
+
+#[test]
+fn long_lists_are_broken() {
+    insta::assert_snapshot!(format(
+        "(define (problem p) (:domain kitchen) (:objects aaaaaaaaaa bbbbbbbbbb cccccccccc dddddddddd eeeeeeeeee ffffffffff - cup)
+(:goal (and (clean aaaaaaaaaa) (clean bbbbbbbbbb) (or (clean cccccccccc) (not (clean dddddddddd))) (clean eeeeeeeeee))))"
+    ));
+}
+
+#[test]
+fn broken_parentheses_are_left_alone() {
+    let text = "(define (domain d)\n   (:predicates (p)\n";
+    assert_eq!(format(text), text);
+}
+
+#[test]
+fn nothing_stays_nothing() {
+    assert_eq!(format(""), "");
+    assert_eq!(format("\u{feff} \r\n"), "");
+    assert_eq!(format("; only\r\n"), "; only\n");
+}
+
+#[test]
+fn deep_nesting_takes_no_stack() {
+    let text = format!("{}{}", "(".repeat(50_000), ")".repeat(50_000));
+    assert_eq!(tokens(&text).len(), tokens(&format(&text)).len());
+}
+
+proptest! {
+    #[test]
+    fn any_text_keeps_its_tokens(pieces in prop::collection::vec(prop::sample::select(vec![
+        "(", ")", " ", "\n", "\n\n", "; c\n", ";@ (x)\n", "a", "?x", "-", ":action", ":effect", "and", "define", "(and ", "(:types ", "\r\n", "é",
+    ]), 0..60)) {
+        holds(&pieces.concat());
+    }
+
+    #[test]
+    fn balanced_text_keeps_its_tokens(pieces in prop::collection::vec(prop::sample::select(vec![
+        "(p ?x)", "(and (p) (q))", " ", "\n", "\n\n", "; c\n", "- t", ":action a", ":effect", "(define (domain d) (:types a b))", "(or\n(p) ; c\n)",
+    ]), 0..40)) {
+        holds(&format!("(and {}\n)", pieces.concat()));
+    }
+}
+
+/// All files of PDDL or HDDL in a folder and below it, but only one problem of each folder.
+fn files_below(folder: &Path, found: &mut Vec<PathBuf>) {
+    let entries = fs::read_dir(folder).expect("the folder can be read");
+    let mut entries: Vec<PathBuf> =
+        entries.map(|entry| entry.expect("an entry can be read").path()).collect();
+    entries.sort();
+    let mut problems = 0;
+    for path in entries {
+        let text =
+            |part: Option<&std::ffi::OsStr>| part.map(|part| part.to_string_lossy().into_owned());
+        if path.is_dir() {
+            files_below(&path, found);
+        } else if matches!(text(path.extension()).as_deref(), Some("pddl" | "hddl")) {
+            let domain = text(path.file_name()).is_some_and(|name| name.contains("domain"));
+            problems += usize::from(!domain);
+            if domain || problems <= 2 {
+                found.push(path);
+            }
+        }
+    }
+}
+
+#[test]
+fn real_files_keep_their_tokens() {
+    let root = match std::env::var_os("CAVEAT_SHARED") {
+        Some(root) => PathBuf::from(root),
+        None => Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared"),
+    };
+    if !root.join("benchmarks").is_dir() {
+        eprintln!("SKIPPED: no shared material at {}; set CAVEAT_SHARED", root.display());
+        return;
+    }
+    let mut files = Vec::new();
+    files_below(&root.join("benchmarks"), &mut files);
+    files_below(&root.join("corpus"), &mut files);
+    assert!(files.len() > 100, "only {} files were found", files.len());
+    for file in files {
+        if let Ok(text) = fs::read_to_string(&file) {
+            holds(&text);
+        }
+    }
+}
