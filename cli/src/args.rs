@@ -45,6 +45,8 @@ pub struct Arguments {
 pub enum Verb {
     /// Say what is wrong with PDDL files.
     Check(Check),
+    /// Lay PDDL files out evenly.
+    Fmt(Fmt),
     /// Find a plan.
     Plan(Plan),
     /// Check plans step by step.
@@ -96,6 +98,32 @@ pub struct Check {
     /// Apply the safe fixes to the files, then say what is left.
     #[arg(long)]
     pub fix: bool,
+}
+
+/// `caveat fmt`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  caveat fmt domain.pddl p01.pddl
+      lay two files out, comments and names as they are
+  caveat fmt --check domains
+      list the files in a folder and below it that would change
+  caveat fmt --stdin < domain.pddl
+      print the result, as editors want it
+
+A file whose parentheses do not match stays as it is; `caveat check` says where.
+
+Exit codes: 0 done, 1 with --check if some file would change, 2 a file could not be read or written.")]
+pub struct Fmt {
+    /// Files, and folders whose *.pddl and *.hddl are meant; `-` is the standard input.
+    #[arg(required_unless_present = "stdin", value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Write nothing; list the files that would change.
+    #[arg(long)]
+    pub check: bool,
+    /// Read the standard input and print the result.
+    #[arg(long)]
+    pub stdin: bool,
 }
 
 /// `caveat plan`.

@@ -26,6 +26,7 @@ pub mod input;
 pub mod pipeline;
 pub mod progress;
 pub mod check;
+pub mod fmt;
 pub mod plan;
 pub mod validate;
 pub mod ground;
@@ -79,6 +80,7 @@ fn dispatch(arguments: &[OsString], terminal: &mut Terminal) -> Exit {
     };
     match parsed.verb {
         Verb::Check(arguments) => check::run(&arguments, terminal),
+        Verb::Fmt(arguments) => fmt::run(&arguments, terminal),
         Verb::Plan(arguments) => plan::run(&arguments, terminal),
         Verb::Validate(arguments) => validate::run(&arguments, terminal),
         Verb::Ground(arguments) => ground::run(&arguments, terminal),

@@ -509,3 +509,24 @@ fn what_cannot_be_planned_checks_clean() {
     desk.run("check domain.pddl problem.pddl").ends_with(0);
     desk.run("plan domain.pddl problem.pddl").ends_with(34);
 }
+
+#[test]
+fn files_are_laid_out_and_told_apart() {
+    let desk = Desk::new();
+    desk.write("domain.pddl", "(define (domain d) ; lights\n(:predicates (lit)))");
+    desk.write("broken.pddl", "(define (domain d)\n      (:predicates (lit)");
+    let even = "(define (domain d) ; lights\n  (:predicates (lit)))\n";
+    insta::assert_snapshot!(desk.run("fmt --check .").ends_with(1).shown());
+    assert!(
+        fs::read_to_string(desk.path("domain.pddl")).expect("it is there").ends_with("(lit)))")
+    );
+    desk.run("fmt domain.pddl broken.pddl").ends_with(0);
+    assert_eq!(fs::read_to_string(desk.path("domain.pddl")).expect("it is there"), even);
+    assert!(fs::read_to_string(desk.path("broken.pddl")).expect("it is there").ends_with("(lit)"));
+    desk.run("fmt --check domain.pddl").ends_with(0);
+    let printed =
+        desk.run_with_stdin("fmt --stdin", b"(define (domain d) ; lights\n(:predicates (lit)))");
+    assert_eq!(printed.ends_with(0).stdout, even);
+    desk.run("fmt absent.pddl").ends_with(2);
+    desk.run("fmt").ends_with(2);
+}

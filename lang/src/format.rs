@@ -121,7 +121,9 @@ impl Layout<'_, '_> {
     /// Writes a list in one piece if it stands in one line and fits, and else its parenthesis; returns the node to go on with.
     fn list(&mut self, id: NodeId, node: Node) -> u32 {
         let flat = self.flat(id, node);
-        self.separate(id, flat.as_ref().map_or(1, |flat| flat.chars().count()));
+        // What fits on no line of its own may as well begin on this one.
+        let width = flat.as_ref().map_or(1, |flat| flat.chars().count());
+        self.separate(id, if self.inner() + width <= WIDTH { width } else { 1 });
         let whole = flat.filter(|flat| self.column + flat.chars().count() <= WIDTH);
         self.count(None);
         if let Some(flat) = whole {
