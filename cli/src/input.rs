@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use lang::diagnostic::{Diagnostic, Diagnostics, Severity, not_utf8, unsupported_feature};
 use lang::model::{Domain, Problem};
 use lang::source::{SourceId, Sources, Span};
-use lang::{Kind, lint};
+use lang::{Kind, allow, lint};
 use lang::{mend, render};
 use planner::normalize::Unsupported;
 
@@ -93,6 +93,7 @@ impl Reader {
                 found.append(lint::problem(domain, &problem));
             }
         }
+        allow::apply(&mut found, &self.sources);
         self.settle(&mut found);
         Ok(found)
     }

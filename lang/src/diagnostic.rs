@@ -11,6 +11,7 @@ pub mod unknown_section;
 pub mod unknown_field;
 pub mod invalid_character;
 pub mod dash_not_separated;
+pub mod unknown_allow;
 pub mod several_formulas;
 pub mod duplicate_field;
 pub mod connective_in_init;
@@ -70,6 +71,7 @@ pub const RULES: &[Rule] = &[
     unknown_field::RULE,
     invalid_character::RULE,
     dash_not_separated::RULE,
+    unknown_allow::RULE,
     several_formulas::RULE,
     duplicate_field::RULE,
     connective_in_init::RULE,

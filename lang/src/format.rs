@@ -215,7 +215,11 @@ impl Layout<'_, '_> {
         } else if own_line {
             self.line(self.inner(), self.ends > 1);
         } else {
-            self.write(" ");
+            // Comments that stand below one another stay so.
+            let before = id.0.checked_sub(1).map(|before| self.tree.nodes()[before as usize]);
+            let blanks = before.filter(|node| node.kind == NodeKind::Space);
+            let blanks = blanks.map_or(1, |node| (node.end - node.start) as usize);
+            self.write(&" ".repeat(blanks.min(WIDTH)));
         }
         self.write(self.tree.slice(id).trim_end());
         (self.after_comment, self.ends) = (true, 0);

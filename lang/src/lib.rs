@@ -29,6 +29,7 @@ pub mod execute;
 pub mod validate;
 pub mod print;
 pub mod format;
+pub mod allow;
 pub mod mend;
 pub mod render;
 

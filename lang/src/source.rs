@@ -54,6 +54,11 @@ impl Sources {
         SourceId(self.texts.len() as u32 - 1)
     }
 
+    /// The names of all sources, in the order in which they were read.
+    pub fn ids(&self) -> impl Iterator<Item = SourceId> + use<> {
+        (0..self.texts.len() as u32).map(SourceId)
+    }
+
     /// The source that `id` names.
     pub fn get(&self, id: SourceId) -> &Source {
         &self.texts[id.0 as usize]
