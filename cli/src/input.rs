@@ -95,6 +95,8 @@ impl Reader {
         }
         allow::apply(&mut found, &self.sources);
         self.settle(&mut found);
+        // File by file and line by line, whichever step found it.
+        found.list.sort_by_key(|one| (one.primary.span.source, one.primary.span.start));
         Ok(found)
     }
 
