@@ -3,6 +3,7 @@
 //! What cannot be resolved is reported once and then left out, so that one mistake gives one message.
 
 mod index;
+mod record;
 mod requirement;
 mod hierarchy;
 mod scope;
@@ -21,6 +22,7 @@ use crate::diagnostic::{
 use crate::model::{self, Object, TypeId, Use, Variable};
 use crate::near::nearest;
 use crate::source::Span;
+use crate::symbol::{Occurrences, Role};
 
 use index::Index;
 use requirement::{Flags, Need};
@@ -45,13 +47,21 @@ struct Report<'d> {
     blind: bool,
     /// How many more names may be compared with a misspelt one.
     comparisons: usize,
+    /// The names that have been resolved, if somebody wants to know.
+    occurrences: Option<&'d mut Occurrences>,
+    /// What the next predicate or function does where it stands.
+    role: Role,
 }
 
 /// How many names are compared with misspelt ones in all, so that a text full of mistakes is read fast too.
 const COMPARISONS: usize = 200_000;
 
 impl<'d> Report<'d> {
-    fn new(diagnostics: &'d mut Diagnostics, declared: Flags) -> Self {
+    fn new(
+        diagnostics: &'d mut Diagnostics,
+        declared: Flags,
+        occurrences: Option<&'d mut Occurrences>,
+    ) -> Self {
         Self {
             diagnostics,
             said: HashSet::new(),
@@ -60,6 +70,8 @@ impl<'d> Report<'d> {
             missing: Flags::default(),
             blind: false,
             comparisons: COMPARISONS,
+            occurrences,
+            role: Role::default(),
         }
     }
 

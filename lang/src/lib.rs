@@ -23,6 +23,7 @@ mod near;
 mod check;
 mod reader;
 pub mod model;
+pub mod symbol;
 pub mod lint;
 pub mod plan;
 pub mod execute;
@@ -34,4 +35,7 @@ pub mod mend;
 pub mod render;
 
 pub use diagnostic::explain;
-pub use reader::{Kind, detect, parse_domain, parse_problem, read_domain, read_problem, refusals};
+pub use reader::{
+    Kind, detect, index_domain, index_problem, parse_domain, parse_problem, read_domain,
+    read_problem, refusals,
+};

@@ -9,14 +9,31 @@ use crate::execute;
 use crate::lexer::TokenKind;
 use crate::model;
 use crate::source::{SourceId, Sources};
+use crate::symbol::Occurrences;
 use crate::syntax;
 use crate::tree;
 
 /// Reads a domain. There is always a model: it contains what could be understood.
 pub fn read_domain(sources: &Sources, id: SourceId) -> (model::Domain, Diagnostics) {
+    domain(sources, id, None)
+}
+
+/// Reads a domain and lists all names in it with what they mean.
+pub fn index_domain(sources: &Sources, id: SourceId) -> (model::Domain, Diagnostics, Occurrences) {
+    let mut occurrences = Occurrences::default();
+    let (domain, diagnostics) = domain(sources, id, Some(&mut occurrences));
+    occurrences.sort();
+    (domain, diagnostics, occurrences)
+}
+
+fn domain(
+    sources: &Sources,
+    id: SourceId,
+    occurrences: Option<&mut Occurrences>,
+) -> (model::Domain, Diagnostics) {
     let mut diagnostics = Diagnostics::default();
     let ast = parse_domain(sources, id, &mut diagnostics);
-    let domain = check::domain(&ast, &mut diagnostics);
+    let domain = check::domain(&ast, &mut diagnostics, occurrences);
     if !diagnostics.has_errors()
         && domain.uses.is_empty()
         && let Err(unstratified) = execute::stratified(&domain)
@@ -32,9 +49,30 @@ pub fn read_problem(
     id: SourceId,
     domain: &model::Domain,
 ) -> (model::Problem, Diagnostics) {
+    problem(sources, id, domain, None)
+}
+
+/// Reads a problem of `domain` and lists all names in it with what they mean.
+pub fn index_problem(
+    sources: &Sources,
+    id: SourceId,
+    domain: &model::Domain,
+) -> (model::Problem, Diagnostics, Occurrences) {
+    let mut occurrences = Occurrences::default();
+    let (problem, diagnostics) = problem(sources, id, domain, Some(&mut occurrences));
+    occurrences.sort();
+    (problem, diagnostics, occurrences)
+}
+
+fn problem(
+    sources: &Sources,
+    id: SourceId,
+    domain: &model::Domain,
+    occurrences: Option<&mut Occurrences>,
+) -> (model::Problem, Diagnostics) {
     let mut diagnostics = Diagnostics::default();
     let ast = parse_problem(sources, id, &mut diagnostics);
-    let problem = check::problem(&ast, domain, &mut diagnostics);
+    let problem = check::problem(&ast, domain, &mut diagnostics, occurrences);
     if diagnostics.list.iter().any(|diagnostic| diagnostic.name == "domain-name-mismatch") {
         without_strangers(&mut diagnostics);
     }

@@ -6,17 +6,26 @@ use super::scope::{self, Bindings};
 use super::{Names, Report, World, condition, effect, hierarchy, name};
 use crate::ast::{self, DomainSection, Head, Name, TypedList};
 use crate::diagnostic::{Diagnostics, derived_effect, duplicate_definition, unused_parameter};
-use crate::model::{Action, Axiom, Domain, Formula, Function, Object, Predicate, Variable};
+use crate::model::{
+    Action, Axiom, Domain, Formula, Function, FunctionId, Object, ObjectId, Predicate, PredicateId,
+    Variable,
+};
 use crate::source::Span;
+use crate::symbol::{Namespace, Occurrences, Role, Symbol};
 
 /// Resolves a domain.
-pub fn domain(ast: &ast::Domain<'_>, diagnostics: &mut Diagnostics) -> Domain {
+pub fn domain(
+    ast: &ast::Domain<'_>,
+    diagnostics: &mut Diagnostics,
+    occurrences: Option<&mut Occurrences>,
+) -> Domain {
     let requirements = ast.sections.iter().filter_map(|section| match section {
         DomainSection::Requirements(names) => Some(names.iter().copied()),
         _ => None,
     });
     let flags = requirement::read(requirements.flatten(), diagnostics);
-    let mut report = Report::new(diagnostics, flags);
+    let mut report = Report::new(diagnostics, flags, occurrences);
+    report.declared_here(ast.name, Namespace::Domain);
     let mut names = Names::default();
     let lists: Vec<&TypedList<'_>> = ast
         .sections
@@ -55,9 +64,11 @@ pub fn domain(ast: &ast::Domain<'_>, diagnostics: &mut Diagnostics) -> Domain {
             DomainSection::Action(read) => {
                 if let Some(first) = action_names.find(read.name.text) {
                     let first: &Action = &actions[first as usize];
+                    report.declared(read.name, Symbol::at(Namespace::Action, first.name.span));
                     report_duplicate("action", read.name, "", first.name.span, &mut report);
                 } else if !read.name.text.is_empty() {
                     action_names.insert(read.name.text, actions.len() as u32);
+                    report.declared_here(read.name, Namespace::Action);
                 }
                 actions.push(action(read, &world, &mut report));
             }
@@ -119,12 +130,14 @@ fn declarations<'a>(
                     let id = domain.predicates.len() as u32;
                     let parameters = parameters(&head.parameters, &names.types, report);
                     if let Some(first) = names.predicates.find(head.name.text) {
+                        report.declared(head.name, PredicateId(first));
                         let first = &domain.predicates[first as usize];
                         let detail = difference(first.parameters.len(), parameters.len());
                         report_duplicate("predicate", head.name, &detail, first.name.span, report);
                         continue;
                     }
                     names.predicates.insert(head.name.text, id);
+                    report.declared(head.name, PredicateId(id));
                     domain.predicates.push(Predicate {
                         name: name(head.name),
                         parameters,
@@ -157,12 +170,14 @@ fn function<'a>(
     let id = domain.functions.len() as u32;
     let parameters = parameters(&head.parameters, &names.types, report);
     if let Some(first) = names.functions.find(head.name.text) {
+        report.declared(head.name, FunctionId(first));
         let first = &domain.functions[first as usize];
         let detail = difference(first.parameters.len(), parameters.len());
         report_duplicate("function", head.name, &detail, first.name.span, report);
         return;
     }
     names.functions.insert(head.name.text, id);
+    report.declared(head.name, FunctionId(id));
     domain.functions.push(Function { name: name(head.name), parameters });
 }
 
@@ -183,12 +198,11 @@ fn parameters(list: &TypedList<'_>, types: &Index<'_>, report: &mut Report<'_>) 
         if let Some(reference) = &group.types {
             report.need(Need::Types, reference.names[0].span);
         }
-        parameters.extend(
-            group
-                .names
-                .iter()
-                .map(|&spelling| Variable { name: name(spelling), types: ids.clone() }),
-        );
+        for &spelling in &group.names {
+            let variable = Variable { name: name(spelling), types: ids.clone() };
+            report.declared_variable(spelling, &variable);
+            parameters.push(variable);
+        }
     }
     parameters
 }
@@ -209,10 +223,12 @@ pub(super) fn objects<'a>(
         }
         for &spelling in &group.names {
             if let Some(first) = names.objects.find(spelling.text) {
+                report.declared(spelling, ObjectId(first));
                 let first = table[first as usize].name.span;
                 report_duplicate(what, spelling, "", first, report);
                 continue;
             }
+            report.declared(spelling, ObjectId(table.len() as u32));
             names.objects.insert(spelling.text, table.len() as u32);
             table.push(Object { name: name(spelling), types: types.clone() });
         }
@@ -228,6 +244,7 @@ fn axiom<'a>(
     let mut bindings = Bindings::new(format!("the rule for `{}`", derived.head.name));
     bindings.bind(&derived.head.parameters, world, report);
     bindings.scope.parameters = bindings.scope.variables.len() as u32;
+    report.next(Role::Add);
     let predicate = scope::predicate(derived.head.name, world, report);
     if let Some(predicate) = predicate {
         let declared = &world.domain.predicates[predicate.index()].parameters;

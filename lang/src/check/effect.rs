@@ -11,6 +11,7 @@ use crate::diagnostic::{
 };
 use crate::model::{self, Atom, Effect, Expression, Increase, Literal, VariableId};
 use crate::source::Span;
+use crate::symbol::Role;
 
 /// A group while its literals are gathered. Its `forall`s and `when`s add to those of the group around it.
 struct Draft {
@@ -218,6 +219,7 @@ impl<'a> Effects<'_, '_, '_, 'a> {
         let node = &formula.nodes[at];
         let Ast::Atom(atom) = &node.kind else { return };
         let arguments = formula.arguments(atom);
+        self.report.next(if positive { Role::Add } else { Role::Delete });
         let atom = self.bindings.atom(atom.name, arguments, node.place.0, self.world, self.report);
         if let Some(atom) = atom {
             self.drafts[group].literals.push(Literal { positive, atom, span });
@@ -229,6 +231,7 @@ impl<'a> Effects<'_, '_, '_, 'a> {
         let Ast::Increase(target, amount) = &node.kind else { return };
         self.report.need(Need::Costs, node.keyword.0);
         let arguments = formula.arguments(target);
+        self.report.next(Role::Write);
         let function =
             self.bindings.function(target.name, arguments, node.place.0, self.world, self.report);
         let value = match amount {

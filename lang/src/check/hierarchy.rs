@@ -10,6 +10,7 @@ use crate::ast::{Name, TypeReference, TypedList};
 use crate::diagnostic::{cyclic_types, unknown_type};
 use crate::model::{self, Type, TypeId};
 use crate::source::Span;
+use crate::symbol::Namespace;
 
 /// Builds the table of types from all `:types` sections.
 pub(super) fn build<'a>(
@@ -21,7 +22,7 @@ pub(super) fn build<'a>(
     let object = model::Name { text: "object".to_owned(), span: domain };
     let mut types = vec![Type { name: object, parents: Vec::new(), ancestors: Vec::new() }];
     index.insert("object", OBJECT.0);
-    let mut declare = |spelling: Name<'a>, types: &mut Vec<Type>| -> TypeId {
+    let mut known = |spelling: Name<'a>, types: &mut Vec<Type>| -> TypeId {
         if let Some(id) = index.find(spelling.text) {
             return TypeId(id);
         }
@@ -31,10 +32,12 @@ pub(super) fn build<'a>(
         TypeId(id)
     };
     for (spelling, above) in lists.iter().flat_map(|list| list.entries()) {
-        let id = declare(spelling, &mut types);
+        let id = known(spelling, &mut types);
+        report.declared(spelling, id);
         let above = above.map_or(&[][..], |above| &above.names);
-        for &parent in above.iter().filter(|parent| !parent.text.is_empty()) {
-            let parent = declare(parent, &mut types);
+        for &spelling in above.iter().filter(|spelling| !spelling.text.is_empty()) {
+            let parent = known(spelling, &mut types);
+            report.found(spelling, parent);
             // What stands above `object` is of no use: everything is an object.
             if id != OBJECT && !types[id.index()].parents.contains(&parent) {
                 types[id.index()].parents.push(parent);
@@ -126,9 +129,11 @@ pub(super) fn resolve(
     for spelling in &reference.names {
         if let Some(id) = index.find(spelling.text) {
             types.push(TypeId(id));
+            report.found(*spelling, TypeId(id));
             continue;
         }
         unknown = true;
+        report.lost(*spelling, Namespace::Type);
         if !spelling.text.is_empty() && report.first(&unknown_type::RULE, spelling.text) {
             let near = report.nearest(spelling.text, index);
             report.push(unknown_type::unknown_type(spelling.text, spelling.span, place, near));

@@ -16,15 +16,22 @@ use crate::diagnostic::{
 };
 use crate::model::{Domain, Fact, Formula, FunctionValue, Metric, ObjectId, Problem};
 use crate::source::Span;
+use crate::symbol::{Namespace, Occurrences, Role, Symbol};
 
 /// Resolves a problem against its domain.
-pub fn problem(ast: &ast::Problem<'_>, domain: &Domain, diagnostics: &mut Diagnostics) -> Problem {
+pub fn problem(
+    ast: &ast::Problem<'_>,
+    domain: &Domain,
+    diagnostics: &mut Diagnostics,
+    occurrences: Option<&mut Occurrences>,
+) -> Problem {
     let requirements = ast.sections.iter().filter_map(|section| match section {
         ProblemSection::Requirements(names) => Some(names.iter().copied()),
         _ => None,
     });
     let declared = requirement::read(requirements.flatten(), diagnostics);
-    let mut report = Report::new(diagnostics, declared);
+    let mut report = Report::new(diagnostics, declared, occurrences);
+    report.declared_here(ast.name, Namespace::Problem);
     report.declare(Flags::from_model(&domain.requirements));
     // Without a domain no name can be called unknown.
     report.blind = domain.name.text.is_empty() && domain.predicates.is_empty();
@@ -52,9 +59,11 @@ pub fn problem(ast: &ast::Problem<'_>, domain: &Domain, diagnostics: &mut Diagno
                     &mut report,
                 );
             }
-            ProblemSection::Domain(asked)
-                if !asked.is(&domain.name.text) && !domain.name.text.is_empty() =>
-            {
+            ProblemSection::Domain(asked) if asked.is(&domain.name.text) => {
+                report.found(*asked, Symbol::at(Namespace::Domain, domain.name.span));
+            }
+            ProblemSection::Domain(asked) if !domain.name.text.is_empty() => {
+                report.lost(*asked, Namespace::Domain);
                 let mismatch = domain_name_mismatch::domain_name_mismatch;
                 report.push(mismatch(asked.text, asked.span, &domain.name.text, domain.name.span));
             }
@@ -177,6 +186,7 @@ impl<'a> State<'_, '_, '_, 'a> {
                 }
                 EntryKind::Value(function, number) => {
                     let arguments = init.arguments(function);
+                    self.report.next(Role::Initial);
                     let Some(id) = scope::function(function.name, self.world, self.report) else {
                         continue;
                     };
@@ -250,6 +260,7 @@ impl<'a> State<'_, '_, '_, 'a> {
         arguments: &[ast::Name<'a>],
         span: Span,
     ) -> Option<Fact> {
+        self.report.next(Role::Initial);
         let predicate = scope::predicate(spelling, self.world, self.report)?;
         let arguments =
             self.arguments(&Callee::predicate(predicate, self.world), arguments, span)?;

@@ -12,6 +12,7 @@ use crate::model::{
     Atom, FunctionId, ObjectId, PredicateId, Scope, Term, TypeId, Variable, VariableId,
 };
 use crate::source::Span;
+use crate::symbol::{Namespace, Symbol};
 
 /// The variables of an action, an axiom or a goal while it is checked.
 pub(super) struct Bindings<'a> {
@@ -81,7 +82,9 @@ impl<'a> Bindings<'a> {
                     }
                     hidden.push((bare(spelling.text), before));
                 }
-                self.scope.variables.push(Variable { name: name(spelling), types: types.clone() });
+                let variable = Variable { name: name(spelling), types: types.clone() };
+                report.declared_variable(spelling, &variable);
+                self.scope.variables.push(variable);
                 self.used.push(false);
             }
         }
@@ -110,9 +113,12 @@ impl<'a> Bindings<'a> {
     ) -> Option<VariableId> {
         if let Some(id) = self.visible.find(bare(spelling.text)) {
             self.used[id as usize] = true;
+            let declared = self.scope.variables[id as usize].name.span;
+            report.found(spelling, Symbol::at(Namespace::Variable, declared));
             return Some(VariableId(id));
         }
         self.unsure = true;
+        report.lost(spelling, Namespace::Variable);
         let key = format!("{} in {}", spelling.text, self.owner);
         if report.first(&unknown_variable::RULE, &key) {
             let near = report.nearest(bare(spelling.text), &self.visible);
@@ -144,9 +150,10 @@ impl<'a> Bindings<'a> {
         if spelling.is_variable() {
             return self.variable(spelling, world, report).map(Term::Variable);
         }
-        let found = world.names.objects.find(spelling.text).map(ObjectId);
+        let found = world.names.objects.find(spelling.text);
         if found.is_none() && self.visible.find(bare(spelling.text)).is_some() {
             self.unsure = true;
+            report.lost(spelling, Namespace::Object);
             if report.first(&unknown_object::RULE, spelling.text) {
                 let variable = format!("?{}", spelling.text);
                 let (text, span) = (spelling.text, spelling.span);
@@ -159,7 +166,7 @@ impl<'a> Bindings<'a> {
             }
             return None;
         }
-        found.or_else(|| object(spelling, world, report)).map(Term::Object)
+        object(spelling, world, report).map(Term::Object)
     }
 
     /// The types of a term, and whether it has all of them.
@@ -330,8 +337,10 @@ pub(super) fn predicate(
     report: &mut Report<'_>,
 ) -> Option<PredicateId> {
     if let Some(id) = world.names.predicates.find(spelling.text) {
+        report.found(spelling, PredicateId(id));
         return Some(PredicateId(id));
     }
+    report.lost(spelling, Namespace::Predicate);
     if let Some(id) = world.names.functions.find(spelling.text) {
         if report.first(&function_as_predicate::RULE, spelling.text) {
             let declared = world.domain.functions[id as usize].name.span;
@@ -355,8 +364,10 @@ pub(super) fn function(
     report: &mut Report<'_>,
 ) -> Option<FunctionId> {
     if let Some(id) = world.names.functions.find(spelling.text) {
+        report.found(spelling, FunctionId(id));
         return Some(FunctionId(id));
     }
+    report.lost(spelling, Namespace::Function);
     if report.first(&unknown_function::RULE, spelling.text) {
         let near = report.nearest(spelling.text, &world.names.functions);
         let none = world.names.functions.len() == 0;
@@ -372,8 +383,10 @@ pub(super) fn object(
     report: &mut Report<'_>,
 ) -> Option<ObjectId> {
     if let Some(id) = world.names.objects.find(spelling.text) {
+        report.found(spelling, ObjectId(id));
         return Some(ObjectId(id));
     }
+    report.lost(spelling, Namespace::Object);
     if report.first(&unknown_object::RULE, spelling.text) {
         let near = report.nearest(spelling.text, &world.names.objects);
         report.push(unknown_object::unknown_object(
