@@ -33,11 +33,11 @@ pub fn run(arguments: &Fmt, terminal: &mut Terminal) -> Exit {
     }
     let files = |count: usize| format!("{count} file{}", if count == 1 { "" } else { "s" });
     if arguments.check {
-        terminal.say(format!("{} of {} would change.", changed, files(paths.len())));
+        terminal.say(format!("{changed} of {} would change.", files(paths.len())));
         return if changed == 0 { Exit::Done } else { Exit::Findings };
     }
     if paths.iter().any(|path| !files::is_stdin(path)) {
-        terminal.say(format!("{} of {} changed.", changed, files(paths.len())));
+        terminal.say(format!("{changed} of {} changed.", files(paths.len())));
     }
     Exit::Done
 }
@@ -49,7 +49,16 @@ fn one(path: &Path, check: bool, terminal: &mut Terminal) -> Result<bool, Compla
         let message = format!("`{}` is not UTF-8 from byte {bad} on", files::name(path));
         return Err(Complaint::with_help(message, "nothing was written to it"));
     }
-    let formatted = format(&text.text);
+    let Some(formatted) = format(&text.text) else {
+        terminal.say(format!(
+            "`{}` stays as it is, since its parentheses do not match; `caveat check` says where.",
+            files::name(path)
+        ));
+        if files::is_stdin(path) && !check {
+            terminal.data(text.text);
+        }
+        return Ok(false);
+    };
     let differs = formatted != text.text;
     if check {
         if differs {

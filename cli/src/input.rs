@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 use lang::diagnostic::{Diagnostic, Diagnostics, Severity, not_utf8, unsupported_feature};
 use lang::model::{Domain, Problem};
 use lang::source::{SourceId, Sources, Span};
-use lang::{Kind, allow, lint};
-use lang::{mend, render};
+use lang::{Kind, allow, lint, mend, render};
 use planner::normalize::Unsupported;
 
 use crate::args::OutputFormat;
@@ -72,7 +71,7 @@ impl Reader {
         for path in paths {
             let Some(Kind::Problem { domain: wanted, .. }) = self.kind(path)? else { continue };
             let problem = self.take(path)?;
-            let named = |domain: &&Domain| {
+            let named = |(domain, _): &&(Domain, bool)| {
                 wanted.as_ref().is_none_or(|wanted| domain.name.text.eq_ignore_ascii_case(wanted))
             };
             if domains.iter().find(named).is_none() {
@@ -84,12 +83,12 @@ impl Reader {
                 found.append(more);
                 domains.push(domain);
             }
-            let domain =
+            let (domain, sound) =
                 domains.iter().find(named).or(domains.last()).expect("one has just been added");
             let (problem, more) = lang::read_problem(&self.sources, problem, domain);
-            let right = !more.has_errors() && !found.has_errors();
+            let sound = *sound && !more.has_errors();
             found.append(more);
-            if right {
+            if sound {
                 found.append(lint::problem(domain, &problem));
             }
         }
@@ -148,16 +147,20 @@ impl Reader {
         }
     }
 
-    /// Reads a domain and adds what is wrong with it.
-    fn checked(&mut self, path: &Path, found: &mut Diagnostics) -> Result<Domain, Complaint> {
+    /// Reads a domain and adds what is wrong with it; says whether it is without errors.
+    fn checked(
+        &mut self,
+        path: &Path,
+        found: &mut Diagnostics,
+    ) -> Result<(Domain, bool), Complaint> {
         let id = self.take(path)?;
         let (domain, more) = lang::read_domain(&self.sources, id);
-        let right = !more.has_errors();
+        let sound = !more.has_errors();
         found.append(more);
-        if right {
+        if sound {
             found.append(lint::domain(&domain));
         }
-        Ok(domain)
+        Ok((domain, sound))
     }
 
     /// Reads a file, unless it has been read.
@@ -165,12 +168,10 @@ impl Reader {
         if let Some((_, id)) = self.taken.iter().find(|(taken, _)| taken == path) {
             return Ok(*id);
         }
-        if let Some(text) = self.mended.get(path) {
-            let id = self.sources.add(files::name(path), text.clone());
-            self.taken.push((path.to_path_buf(), id));
-            return Ok(id);
-        }
-        let text = files::read(path)?;
+        let text = match self.mended.get(path) {
+            Some(text) => files::Text { text: text.clone(), bad: None },
+            None => files::read(path)?,
+        };
         let end = text.text.len() as u32;
         let id = self.sources.add(files::name(path), text.text);
         if let Some(bad) = text.bad {

@@ -530,3 +530,24 @@ fn files_are_laid_out_and_told_apart() {
     desk.run("fmt absent.pddl").ends_with(2);
     desk.run("fmt").ends_with(2);
 }
+
+#[test]
+fn a_file_that_cannot_be_laid_out_is_named() {
+    let desk = Desk::new();
+    desk.write("broken.pddl", "(define (domain d)\n      (:predicates (lit)");
+    insta::assert_snapshot!(desk.run("fmt broken.pddl").ends_with(0).shown());
+    let printed = desk.run_with_stdin("fmt --stdin", b"(define (domain d)").ends_with(0);
+    assert_eq!(printed.stdout, "(define (domain d)", "an editor must get its text back");
+}
+
+#[test]
+fn a_wrong_problem_does_not_hide_what_is_said_of_another() {
+    let desk = Desk::new();
+    desk.write("domain.pddl", "(define (domain d) (:predicates (lit)) (:action a :effect (lit)))");
+    desk.write("wrong.pddl", "(define (problem p) (:domain d) (:init) (:goal (lti)))");
+    desk.write("done.pddl", "(define (problem q) (:domain d) (:init (lit)) (:goal (lit)))");
+    let run = desk.run("check --output-format concise domain.pddl wrong.pddl done.pddl");
+    let said = run.ends_with(1).stdout;
+    assert!(said.contains("wrong.pddl:1:49: error[E0101]"), "{said}");
+    assert!(said.contains("done.pddl:1:54: warning[W0702]"), "{said}");
+}

@@ -15,14 +15,14 @@ const WIDTH: usize = 80;
 /// How far each level stands to the right of the line on which it opens.
 const STEP: usize = 2;
 
-/// Lays `text` out. A text whose parentheses do not match comes back as it is, since its structure is a guess.
+/// Lays `text` out; nothing if its parentheses do not match, since its structure is a guess then.
 ///
 /// The result has the same tokens and comments in the same order, ends with a line end, and formats to itself.
-pub fn format(text: &str) -> String {
+pub fn format(text: &str) -> Option<String> {
     let tree = tree::parse(SourceId(0), text, &mut Diagnostics::default());
     let sound = |node: &Node| !matches!(node.kind, NodeKind::OpenList | NodeKind::Stray);
     if !tree.nodes().iter().all(sound) {
-        return text.to_owned();
+        return None;
     }
     let line_ends = text.bytes().enumerate().filter(|&(_, byte)| byte == b'\n');
     let line_ends = line_ends.map(|(at, _)| at as u32).collect();
@@ -37,7 +37,7 @@ pub fn format(text: &str) -> String {
         after_comment: false,
     };
     layout.all();
-    layout.out
+    Some(layout.out)
 }
 
 /// What kind of list it is, as far as that says where lines end.
@@ -71,7 +71,7 @@ struct Frame {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Gap {
     Line,
-    Blank,
+    Space,
     /// A line end if the author set one, or where the line would get too long.
     Author,
 }
@@ -211,10 +211,9 @@ impl Layout<'_, '_> {
 
     fn comment(&mut self, id: NodeId) {
         let own_line = self.ends > 0 || self.after_comment;
-        if self.out.is_empty() {
-        } else if own_line {
+        if own_line && !self.out.is_empty() {
             self.line(self.inner(), self.ends > 1);
-        } else {
+        } else if !self.out.is_empty() {
             // Comments that stand below one another stay so.
             let before = id.0.checked_sub(1).map(|before| self.tree.nodes()[before as usize]);
             let blanks = before.filter(|node| node.kind == NodeKind::Space);
@@ -236,13 +235,12 @@ impl Layout<'_, '_> {
         let breaks = self.after_comment
             || match gap {
                 Gap::Line => true,
-                Gap::Blank => false,
+                Gap::Space => false,
                 Gap::Author => self.ends > 0 || self.column + 1 + width > WIDTH,
             };
-        if first && !self.after_comment {
-        } else if breaks {
+        if breaks && (!first || self.after_comment) {
             self.line(inner, blank);
-        } else {
+        } else if !first {
             self.write(" ");
         }
         self.ends = 0;
@@ -252,16 +250,16 @@ impl Layout<'_, '_> {
         let word = (!self.tree.is_list(id)).then(|| self.tree.slice(id));
         let last = frame.last.map(|last| self.tree.slice(last));
         if word == Some("-") || last == Some("-") {
-            return Gap::Blank;
+            return Gap::Space;
         }
         match frame.shape {
-            Shape::Definition if frame.written == 1 => Gap::Blank,
+            Shape::Definition if frame.written == 1 => Gap::Space,
             Shape::Definition => Gap::Line,
             Shape::Fields if word.is_some_and(|word| word.starts_with(':')) => Gap::Line,
             Shape::Fields
                 if frame.written == 1 || last.is_some_and(|last| last.starts_with(':')) =>
             {
-                Gap::Blank
+                Gap::Space
             }
             Shape::Operands | Shape::Declarations if word.is_none() => Gap::Line,
             _ => Gap::Author,

@@ -6,6 +6,8 @@
 mod condition;
 mod reach;
 
+use hashbrown::HashMap;
+
 use crate::diagnostic::{Diagnostics, goal_already_true, unused_predicate};
 use crate::model::{Domain, Fact, Formula, NodeKind, Problem, Term};
 
@@ -46,6 +48,10 @@ pub fn problem(domain: &Domain, problem: &Problem) -> Diagnostics {
 
 /// Reports predicates that nothing names.
 fn unused(domain: &Domain, found: &mut Diagnostics) {
+    // A domain without actions is a vocabulary, and using it is left to others.
+    if domain.actions.is_empty() {
+        return;
+    }
     let mut used = vec![false; domain.predicates.len()];
     let mut mark = |formula: &Formula| {
         for node in &formula.nodes {
@@ -66,10 +72,6 @@ fn unused(domain: &Domain, found: &mut Diagnostics) {
         }
     }
     domain.axioms.iter().for_each(|axiom| used[axiom.head.index()] = true);
-    // A domain without actions is a vocabulary, and using it is left to others.
-    if domain.actions.is_empty() {
-        return;
-    }
     for (predicate, _) in domain.predicates.iter().zip(used).filter(|(_, used)| !used) {
         found.push(unused_predicate::unused_predicate(&predicate.name.text, predicate.name.span));
     }
@@ -78,7 +80,7 @@ fn unused(domain: &Domain, found: &mut Diagnostics) {
 /// Whether the goal is a conjunction of literals that all hold initially.
 fn already(domain: &Domain, problem: &Problem) -> bool {
     let Some(literals) = condition::literals(&problem.goal) else { return false };
-    let mut wanted: hashbrown::HashMap<Fact, bool> = hashbrown::HashMap::new();
+    let mut wanted: HashMap<Fact, bool> = HashMap::new();
     for literal in &literals {
         let object = |term: &Term| match term {
             Term::Object(id) => Some(*id),

@@ -1,41 +1,39 @@
 //! Fixes go in with the text that they are for; the mended text comes out.
 
-use crate::diagnostic::{Applicability, Diagnostics};
-use crate::source::{SourceId, Sources};
+use crate::diagnostic::{Applicability, Diagnostics, Fix};
+use crate::source::{SourceId, Sources, Span};
 
 /// The text of `source` after all safe fixes that do not overlap, and how many those are.
 ///
-/// Of fixes that overlap the first in the list of diagnostics wins.
+/// Fixes are taken in the order of the text; one that begins before the last one ends is left for another round.
 pub fn safely(diagnostics: &Diagnostics, sources: &Sources, source: SourceId) -> (String, usize) {
-    let mut taken: Vec<(u32, u32, &str)> = Vec::new();
-    let mut count = 0;
-    for one in &diagnostics.list {
-        let Some(fix) = one.fixes.iter().find(|fix| fix.applicability == Applicability::Safe)
-        else {
-            continue;
-        };
-        let free = |start: u32, end: u32| {
-            taken.iter().all(|&(from, to, _)| {
-                end < from
-                    || to < start
-                    || (end == from && start < end)
-                    || (to == start && from < to)
-            })
-        };
-        if fix.edits.iter().all(|(span, _)| span.source == source && free(span.start, span.end)) {
-            taken
-                .extend(fix.edits.iter().map(|(span, text)| (span.start, span.end, text.as_str())));
-            count += 1;
-        }
-    }
-    taken.sort_unstable();
+    let safe = |one: &'_ &Fix| one.applicability == Applicability::Safe;
+    let fixes = diagnostics.list.iter().filter_map(|one| one.fixes.iter().find(safe));
+    let mut fixes: Vec<Vec<&(Span, String)>> = fixes
+        .filter(|fix| fix.edits.iter().all(|(span, _)| span.source == source))
+        .map(|fix| {
+            let mut edits: Vec<_> = fix.edits.iter().collect();
+            edits.sort_by_key(|(span, _)| *span);
+            edits
+        })
+        .collect();
+    fixes.sort_by_key(|edits| edits.first().map(|(span, _)| *span));
     let text = &sources.get(source).text;
     let mut out = String::with_capacity(text.len());
-    let mut at = 0;
-    for (start, end, replacement) in taken {
-        out.push_str(&text[at..start as usize]);
-        out.push_str(replacement);
-        at = end as usize;
+    let (mut at, mut count) = (0, 0);
+    let mut last: Option<Span> = None;
+    for edits in fixes {
+        let Some((first, _)) = edits.first() else { continue };
+        if last.is_some_and(|last| first.start < last.end || *first == last) {
+            continue;
+        }
+        for (span, replacement) in edits {
+            out.push_str(&text[at..span.start as usize]);
+            out.push_str(replacement);
+            at = span.end as usize;
+            last = Some(*span);
+        }
+        count += 1;
     }
     out.push_str(&text[at..]);
     (out, count)

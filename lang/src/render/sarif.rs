@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::{Lines, word};
-use crate::diagnostic::{Diagnostic, Diagnostics, Fix, Label, RULES, Severity};
+use crate::diagnostic::{Diagnostic, Diagnostics, Fix, Label, RULES};
 use crate::source::{Sources, Span};
 
 /// One run with all kinds as its rules.
@@ -57,14 +57,10 @@ fn result(one: &Diagnostic, sources: &Sources, lines: &mut Lines) -> Value {
         Some(help) => format!("{}; help: {help}", one.message),
         None => one.message.clone(),
     };
-    let level = match one.severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-    };
     json!({
         "ruleId": one.code,
         "ruleIndex": RULES.iter().position(|rule| rule.code == one.code),
-        "level": level,
+        "level": word(one.severity),
         "message": { "text": message },
         "locations": [location(&one.primary, sources, lines)],
         "relatedLocations": related,
@@ -84,7 +80,7 @@ fn location(label: &Label, sources: &Sources, lines: &mut Lines) -> Value {
 }
 
 fn fix(fix: &Fix, sources: &Sources, lines: &mut Lines) -> Value {
-    let replacements = |lines: &mut Lines, (span, text): &(Span, String)| {
+    let change = |(span, text): &(Span, String)| {
         json!({
             "artifactLocation": { "uri": uri(&sources.get(span.source).name) },
             "replacements": [{
@@ -93,7 +89,7 @@ fn fix(fix: &Fix, sources: &Sources, lines: &mut Lines) -> Value {
             }],
         })
     };
-    let changes: Vec<Value> = fix.edits.iter().map(|edit| replacements(lines, edit)).collect();
+    let changes: Vec<Value> = fix.edits.iter().map(change).collect();
     json!({ "description": { "text": fix.title }, "artifactChanges": changes })
 }
 

@@ -160,22 +160,21 @@ impl<'a> Reader<'a, '_> {
     ///
     /// Where every name has a line of its own, or the lines are full, the list is only wrapped.
     fn swallowed(&mut self, list: &TypedList<'a>) {
-        let breaks = |from: Span, to: Span| {
-            self.tree.input()[from.end as usize..to.start as usize].contains('\n')
+        let input = self.tree.input();
+        let breaks = |pair: &[Name<'a>]| {
+            input[pair[0].span.end as usize..pair[1].span.start as usize].contains('\n')
         };
-        let mut found = Vec::new();
         for group in &list.groups {
             let Some(above) = group.types.as_ref().map(|types| types.names[0]) else { continue };
-            let last = group.names.windows(2).rposition(|pair| breaks(pair[0].span, pair[1].span));
+            let last = group.names.windows(2).rposition(breaks);
             let Some(last) = last.filter(|_| !above.is("object")) else { continue };
-            let alone =
-                group.names[..=last].windows(2).all(|pair| breaks(pair[0].span, pair[1].span));
+            let alone = group.names[..=last].windows(2).all(breaks);
             if !alone || last + 2 >= group.names.len() {
                 continue;
             }
             let names: Vec<&str> = group.names.iter().map(|name| name.text).collect();
             let first = group.names[0];
-            found.push(suspicious_type_list::suspicious_type_list(
+            self.diagnostics.push(suspicious_type_list::suspicious_type_list(
                 first.text,
                 first.span,
                 above.text,
@@ -183,7 +182,6 @@ impl<'a> Reader<'a, '_> {
                 &names.join(" "),
             ));
         }
-        self.diagnostics.append(Diagnostics { list: found });
     }
 
     /// The words of a list after its first; lists among them are reported.
