@@ -112,6 +112,12 @@ fn nearest(path: &Path) -> Option<PathBuf> {
     (distance(&best) <= wanted.chars().count() / 3).then(|| path.with_file_name(best))
 }
 
+/// Whether a file is called as files of PDDL and HDDL are.
+pub fn is_pddl(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|end| end.eq_ignore_ascii_case("pddl") || end.eq_ignore_ascii_case("hddl"))
+}
+
 /// The folder that a file lies in.
 pub fn folder(path: &Path) -> &Path {
     match path.parent() {

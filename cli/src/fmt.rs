@@ -84,13 +84,8 @@ fn gather(path: &Path, found: &mut Vec<PathBuf>) -> Result<(), Complaint> {
             Complaint::new(format!("the folder `{}` cannot be read: {error}", path.display()))
         })?;
         let mut inside: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-        let is_pddl = |path: &PathBuf| {
-            path.extension().is_some_and(|end| {
-                end.eq_ignore_ascii_case("pddl") || end.eq_ignore_ascii_case("hddl")
-            })
-        };
         // A link to a folder may lead back to where it is.
-        inside.retain(|path| if path.is_dir() { !path.is_symlink() } else { is_pddl(path) });
+        inside.retain(|path| if path.is_dir() { !path.is_symlink() } else { files::is_pddl(path) });
         inside.sort();
         waiting.extend(inside.into_iter().rev());
     }

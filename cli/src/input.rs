@@ -74,8 +74,19 @@ impl Reader {
             let named = |(domain, _): &&(Domain, bool)| {
                 wanted.as_ref().is_none_or(|wanted| domain.name.text.eq_ignore_ascii_case(wanted))
             };
-            if domains.iter().find(named).is_none() {
-                let beside = self.find_domain(path)?;
+            let beside = if domains.iter().any(|domain| named(&domain)) {
+                None
+            } else if domains.is_empty() {
+                Some(self.find_domain(path)?)
+            } else {
+                // Where no other file has that name, the domain that was given is meant, and the name is the mistake.
+                let usual = usual_domains(path);
+                match domains_beside(path, &usual, wanted.as_deref()).as_slice() {
+                    [only] => Some(only.clone()),
+                    _ => None,
+                }
+            };
+            if let Some(beside) = beside {
                 // Its warnings are for whoever checks it; its errors explain errors of the problem.
                 let mut more = Diagnostics::default();
                 let domain = self.checked(&beside, &mut more)?;
@@ -244,59 +255,24 @@ impl Reader {
                 "name the domain as well: DOMAIN -",
             ));
         }
-        let named = [path.with_file_name("domain.pddl")];
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let short = stem.split('-').next().unwrap_or(&stem);
-        let usual = [
-            format!("{stem}-domain.pddl"),
-            format!("domain_{stem}.pddl"),
-            format!("domain-{stem}.pddl"),
-            format!("{short}-domain.pddl"),
-        ];
-        let candidates =
-            named.into_iter().chain(usual.into_iter().map(|name| path.with_file_name(name)));
-        if let Some(found) =
-            candidates.filter(|candidate| candidate != path).find(|candidate| candidate.is_file())
-        {
-            return Ok(found);
-        }
-        self.only_domain(path)
-    }
-
-    /// The only file beside `path` that defines the domain that it names.
-    fn only_domain(&mut self, path: &Path) -> Result<PathBuf, Complaint> {
         let wanted = match self.kind(path)? {
             Some(Kind::Problem { domain, .. }) => domain,
             _ => None,
         };
-        let mut beside: Vec<PathBuf> = fs::read_dir(files::folder(path))
-            .into_iter()
-            .flatten()
-            .flatten()
-            .map(|entry| path.with_file_name(entry.file_name()))
-            .filter(|file| {
-                file.extension().is_some_and(|extension| extension == "pddl") && file != path
-            })
-            .collect();
-        beside.sort();
-        beside.retain(|file| {
-            let mut sources = Sources::default();
-            let id = sources.add(files::name(file), fs::read_to_string(file).unwrap_or_default());
-            match (lang::detect(&sources, id), &wanted) {
-                (Some(Kind::Domain { name }), Some(wanted)) => name.eq_ignore_ascii_case(wanted),
-                (Some(Kind::Domain { .. }), None) => true,
-                _ => false,
-            }
-        });
+        let usual = usual_domains(path);
         let name = files::name(path);
+        let beside = domains_beside(path, &usual, wanted.as_deref());
         let wanted = wanted
             .map_or_else(|| "a domain".to_string(), |wanted| format!("the domain `{wanted}`"));
         match beside.as_slice() {
             [only] => Ok(only.clone()),
-            [] => Err(Complaint::with_help(
-                format!("no file beside `{name}` defines {wanted}"),
-                format!("name the domain before the problem: DOMAIN {name}"),
-            )),
+            // That it defines another domain is said when the problem is read.
+            [] => usual.into_iter().next().ok_or_else(|| {
+                Complaint::with_help(
+                    format!("no file beside `{name}` defines {wanted}"),
+                    format!("name the domain before the problem: DOMAIN {name}"),
+                )
+            }),
             several => Err(Complaint::with_help(
                 format!("several files beside `{name}` define {wanted}: {}", listed(several)),
                 format!(
@@ -306,6 +282,46 @@ impl Reader {
             )),
         }
     }
+}
+
+/// The files beside a problem that are called as its domain usually is, the most usual first.
+fn usual_domains(path: &Path) -> Vec<PathBuf> {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let short = stem.split('-').next().unwrap_or(&stem);
+    let names = [
+        "domain.pddl".to_string(),
+        "domain.hddl".to_string(),
+        format!("{stem}-domain.pddl"),
+        format!("domain_{stem}.pddl"),
+        format!("domain-{stem}.pddl"),
+        format!("{short}-domain.pddl"),
+    ];
+    let files = names.into_iter().map(|name| path.with_file_name(name));
+    files.filter(|file| file != path && file.is_file()).collect()
+}
+
+/// The files beside `path` that define the domain `wanted`, or any domain: the first of the `usual` ones that does, or else all others.
+fn domains_beside(path: &Path, usual: &[PathBuf], wanted: Option<&str>) -> Vec<PathBuf> {
+    let defines = |file: &PathBuf| {
+        let mut sources = Sources::default();
+        let id = sources.add(files::name(file), fs::read_to_string(file).unwrap_or_default());
+        match (lang::detect(&sources, id), wanted) {
+            (Some(Kind::Domain { name }), Some(wanted)) => name.eq_ignore_ascii_case(wanted),
+            (Some(Kind::Domain { .. }), None) => true,
+            _ => false,
+        }
+    };
+    if let Some(found) = usual.iter().find(|file| defines(file)) {
+        return vec![found.clone()];
+    }
+    let entries = fs::read_dir(files::folder(path)).into_iter().flatten().flatten();
+    let mut beside: Vec<PathBuf> = entries
+        .map(|entry| path.with_file_name(entry.file_name()))
+        .filter(|file| file != path && files::is_pddl(file))
+        .filter(defines)
+        .collect();
+    beside.sort();
+    beside
 }
 
 impl Input {

@@ -551,3 +551,22 @@ fn a_wrong_problem_does_not_hide_what_is_said_of_another() {
     assert!(said.contains("wrong.pddl:1:49: error[E0101]"), "{said}");
     assert!(said.contains("done.pddl:1:54: warning[W0702]"), "{said}");
 }
+
+#[test]
+fn the_domain_that_is_given_is_meant_when_no_file_has_the_name() {
+    let desk = Desk::with("hanoi", "p01.pddl");
+    let text = fs::read_to_string(desk.path("problem.pddl")).expect("it is there");
+    desk.write("problem.pddl", text.replace("(:domain hanoi)", "(:domain hanoy)"));
+    let run = desk.run("check --output-format concise domain.pddl problem.pddl").ends_with(1);
+    assert_eq!(run.stdout.lines().count(), 1, "{}", run.stdout);
+    assert!(run.stdout.contains("error[E0106] domain-name-mismatch"), "{}", run.stdout);
+}
+
+#[test]
+fn a_domain_that_has_the_name_comes_before_one_with_the_usual_file_name() {
+    let desk = Desk::with("hanoi", "p01.pddl");
+    let other = "(define (domain lights) (:predicates (lit)) (:action a :effect (lit)))";
+    desk.write("lights.hddl", other);
+    desk.write("p.pddl", "(define (problem p) (:domain lights) (:init) (:goal (lit)))");
+    desk.run("check p.pddl").ends_with(0);
+}

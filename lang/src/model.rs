@@ -76,6 +76,13 @@ pub struct Use {
     pub span: Span,
 }
 
+impl Use {
+    /// Whether a problem with it may do without a goal: in HDDL the tasks say what is to be done.
+    pub fn replaces_goal(&self) -> bool {
+        self.feature == Feature::Hierarchies
+    }
+}
+
 /// A PDDL domain in which everything is resolved.
 #[derive(Debug, Clone)]
 pub struct Domain {

@@ -14,7 +14,7 @@ use crate::ast::{self, EntryKind, ProblemSection};
 use crate::diagnostic::{
     Diagnostics, domain_name_mismatch, unexpected_item, uninitialised_function, variable_in_init,
 };
-use crate::model::{Domain, Fact, Formula, FunctionValue, Metric, ObjectId, Problem};
+use crate::model::{Domain, Fact, Formula, FunctionValue, Metric, ObjectId, Problem, Use};
 use crate::source::Span;
 use crate::symbol::{Namespace, Occurrences, Role, Symbol};
 
@@ -33,6 +33,10 @@ pub fn problem(
     let mut report = Report::new(diagnostics, declared, occurrences);
     report.declared_here(ast.name, Namespace::Problem);
     report.declare(Flags::from_model(&domain.requirements));
+    // A domain that has types has been told already if it does not say so.
+    if domain.types.len() > 1 {
+        report.declare(Flags::TYPES);
+    }
     // Without a domain no name can be called unknown.
     report.blind = domain.name.text.is_empty() && domain.predicates.is_empty();
     let mut names = table(domain);
@@ -127,7 +131,7 @@ fn contents<'a>(
             .map_or(problem.name.span, |first| first.nodes[first.root().index()].span);
         problem.goal = condition::conjoin(conditions, span);
         problem.goal_scope = bindings.scope;
-    } else if !problem.name.text.is_empty() {
+    } else if !problem.name.text.is_empty() && !report.uses.iter().any(Use::replaces_goal) {
         report
             .push(unexpected_item::missing_item("a `(:goal …)` in the problem", problem.name.span));
     }

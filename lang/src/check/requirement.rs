@@ -131,6 +131,9 @@ impl Flags {
             .collect()
     }
 
+    /// That of types alone.
+    pub(super) const TYPES: Self = Self(TYPING);
+
     /// What the model knows, as a set again.
     pub(super) fn from_model(requirements: &BTreeSet<Requirement>) -> Self {
         let flag = |requirement: &Requirement| match requirement {

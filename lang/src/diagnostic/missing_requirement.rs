@@ -83,4 +83,20 @@ mod tests {
 ",
         ]);
     }
+
+    #[test]
+    fn types_are_said_in_the_domain_only() {
+        check(&[
+            "(define (domain d)
+  (:types cup)
+;         ^^^ W0302: a type needs the requirement `:typing`, which is not declared
+  (:predicates (clean ?c - cup))
+  (:action wash :parameters (?c - cup) :effect (clean ?c)))
+",
+            "(define (problem p) (:domain d)
+  (:objects mug - cup)
+  (:goal (clean mug)))
+",
+        ]);
+    }
 }

@@ -64,4 +64,16 @@ mod tests {
 ",
         ]);
     }
+
+    #[test]
+    fn tasks_stand_for_a_goal() {
+        check(&[
+            "(define (domain d) (:requirements :hierarchy) (:predicates (clean)) (:task tidy :parameters ()))
+",
+            "(define (problem p) (:domain d)
+  (:htn :ordered-subtasks (and (tidy)))
+  (:init))
+",
+        ]);
+    }
 }
