@@ -31,7 +31,7 @@ mod tests {
   (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
   (:functions (water))
   (:durative-action soak :parameters (?d - dish) :duration (= ?duration 5) :effect (at end (clean ?d)))
-;  ^^^^^^^^^^^^^^^^ E0303: durative actions are not supported yet
+;                   ^^^^ E0303: durative actions are not supported yet
   (:durative-action dry :parameters (?d - dish) :duration (= ?duration 5) :effect (at end (clean ?d)))
   (:action wash
     :parameters (?d - dish)
@@ -73,15 +73,17 @@ mod tests {
   (:types cup plate - dish place)
   (:constants sink - place)
   (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:functions (total-cost))
   (:action wash
     :parameters (?d - dish)
     :precondition (in ?d sink)
     :effect (clean ?d)))
 ",
             "(define (problem p) (:domain d)
+  (:requirements :timed-initial-literals :preferences :constraints)
   (:objects mug - cup)
-  (:init (at 5 (lit)) (at 7 (lit)))
-;         ^^ E0303: timed initial literals are not supported yet
+  (:init (at 5 (lit)) (at 7 (lit)) (= (total-cost) 0))
+;            ^ E0303: timed initial literals are not supported yet
   (:goal (preference nice (clean mug)))
 ;         ^^^^^^^^^^ E0303: preferences are not supported yet
   (:constraints (always (lit)))
