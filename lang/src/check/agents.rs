@@ -217,6 +217,7 @@ pub(super) fn constraints<'a>(
         if let Some(&first) = known.get(&constraint.name.text.to_ascii_lowercase()) {
             domain::report_duplicate("concurrency constraint", constraint.name, "", first, report);
         }
+        report.declared_here(constraint.name, Namespace::Constraint);
         known.insert(constraint.name.text.to_ascii_lowercase(), constraint.name.span);
         let mut bindings = Bindings::new(format!("concurrency constraint `{}`", constraint.name));
         bindings.bind(&constraint.parameters, world, report);
@@ -232,7 +233,10 @@ pub(super) fn constraints<'a>(
             report.push(unexpected_item::missing_item(expected, keyword.span));
         }
         for constraint in names {
-            if !known.contains_key(&constraint.text.to_ascii_lowercase()) {
+            if let Some(&declared) = known.get(&constraint.text.to_ascii_lowercase()) {
+                report.found(*constraint, Symbol::at(Namespace::Constraint, declared));
+            } else {
+                report.lost(*constraint, Namespace::Constraint);
                 let near = nearest(constraint.text, all.iter().map(|one| one.name.text));
                 let diagnostic =
                     unknown_constraint::unknown_constraint(constraint.text, constraint.span, near);

@@ -17,6 +17,7 @@ use crate::symbol::{Namespace, Symbol};
 pub(super) fn method<'a>(method: &Method<'a>, world: &World<'_, 'a>, report: &mut Report<'_>) {
     report.need(Need::Hierarchy, method.name.span);
     report.uses(Feature::Hierarchies, method.name.span);
+    report.declared_here(method.name, Namespace::Method);
     let mut bindings = Bindings::new(format!("method `{}`", method.name));
     bindings.bind(&method.parameters, world, report);
     bindings.scope.parameters = bindings.scope.variables.len() as u32;
@@ -61,6 +62,7 @@ fn network<'a>(
             if let Some(&first) = labels.get(&label.text.to_ascii_lowercase()) {
                 domain::report_duplicate("subtask", label, "", first, report);
             }
+            report.declared_here(label, Namespace::Subtask);
             labels.insert(label.text.to_ascii_lowercase(), label.span);
         }
         let range = subtask.task.arguments.start as usize..subtask.task.arguments.end as usize;
@@ -68,7 +70,10 @@ fn network<'a>(
         task(subtask.task.name, arguments, subtask.place.0, true, bindings, world, report);
     }
     for name in network.ordering.iter().flat_map(|&(first, second)| [first, second]) {
-        if !labels.contains_key(&name.text.to_ascii_lowercase()) {
+        if let Some(&declared) = labels.get(&name.text.to_ascii_lowercase()) {
+            report.found(name, Symbol::at(Namespace::Subtask, declared));
+        } else {
+            report.lost(name, Namespace::Subtask);
             let spellings = network.subtasks.iter().filter_map(|one| one.label);
             let near = nearest(name.text, spellings.map(|label| label.text));
             report.push(unknown_subtask::unknown_subtask(name.text, name.span, near));
