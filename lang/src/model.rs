@@ -277,7 +277,7 @@ pub struct Literal {
     pub span: Span,
 }
 
-/// `(increase (FUNCTION …) VALUE)`: only cost functions are read so far.
+/// `(increase (FUNCTION …) VALUE)` by a number or the value of a function, as costs are written; other numeric effects are a [`Use`].
 #[derive(Debug, Clone)]
 pub struct Increase {
     /// What the enclosing `forall`s bind.
