@@ -17,6 +17,7 @@ pub mod duplicate_field;
 pub mod connective_in_init;
 pub mod unexpected_item;
 pub mod not_utf8;
+pub mod misplaced_parenthesis;
 pub mod unknown_predicate;
 pub mod unused_parameter;
 pub mod shadowed_variable;
@@ -93,6 +94,7 @@ pub const RULES: &[Rule] = &[
     connective_in_init::RULE,
     unexpected_item::RULE,
     not_utf8::RULE,
+    misplaced_parenthesis::RULE,
     unknown_predicate::RULE,
     unused_parameter::RULE,
     shadowed_variable::RULE,
@@ -284,19 +286,22 @@ impl Diagnostic {
         self
     }
 
+    /// Adds another range to the last fix.
+    #[must_use]
+    pub fn along(mut self, span: Span, replacement: impl Into<String>) -> Self {
+        if let Some(fix) = self.fixes.last_mut() {
+            fix.edits.push((span, replacement.into()));
+        }
+        self
+    }
+
     /// Offers to write something around the place of the mistake.
     #[must_use]
-    pub fn wrap(mut self, before: &str, after: &str) -> Self {
+    pub fn wrap(self, before: &str, after: &str) -> Self {
         let Span { source, start, end } = self.primary.span;
-        self.fixes.push(Fix {
-            applicability: Applicability::Suggested,
-            title: format!("write `{before}…{after}` around it"),
-            edits: vec![
-                (Span::new(source, start, start), before.to_owned()),
-                (Span::new(source, end, end), after.to_owned()),
-            ],
-        });
-        self
+        let title = format!("write `{before}…{after}` around it");
+        self.fix(title, Span::new(source, start, start), before)
+            .along(Span::new(source, end, end), after)
     }
 
     /// Offers to declare a requirement, at a place in the list of them or before it if the list `is_missing`.

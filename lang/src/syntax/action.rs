@@ -96,16 +96,34 @@ impl<'a> Reader<'a, '_> {
 
     /// The parts up to the next field.
     fn values(&self, field: Option<&str>, fields: &mut Fields<'a>) -> Vec<NodeId> {
-        // The value of `:agent` is no list: in `:agent ?a - agent` the last word is a type.
-        let bare = field == Some(":agent");
-        let ends = |&part: &NodeId| {
-            let word = self.tree.slice(part);
-            let named = || fields.known.iter().any(|field| field[1..].eq_ignore_ascii_case(word));
-            !self.tree.is_list(part) && (word.starts_with(':') || !bare && named())
-        };
         let rest = fields.parts.as_slice();
-        let count = rest.iter().position(ends).unwrap_or(rest.len());
+        let count = (0..rest.len()).find(|&at| self.starts_field(rest, at, field, fields.known));
+        let count = count.unwrap_or(rest.len());
         fields.parts.by_ref().take(count).collect()
+    }
+
+    /// Whether the part at `at`, after the keyword of `field`, is the keyword of another field, perhaps without its colon.
+    fn starts_field(
+        &self,
+        parts: &[NodeId],
+        at: usize,
+        field: Option<&str>,
+        known: &[&str],
+    ) -> bool {
+        let tree = self.tree;
+        let word = tree.slice(parts[at]);
+        if tree.is_list(parts[at]) || word.starts_with(':') {
+            return !tree.is_list(parts[at]);
+        }
+        // The value of `:agent` is no list: in `:agent ?a - agent` the last word is a type.
+        let named = field != Some(":agent")
+            && known.iter().any(|field| field[1..].eq_ignore_ascii_case(word));
+        // Words beside it make it a word of a sentence.
+        let alone = at == 0 || tree.is_list(parts[at - 1]);
+        let valued = parts
+            .get(at + 1)
+            .is_some_and(|&value| tree.is_list(value) || word.eq_ignore_ascii_case("agent"));
+        named && alone && valued
     }
 
     /// The field that a word starts, taken as the one that was probably meant.
@@ -151,7 +169,16 @@ impl<'a> Reader<'a, '_> {
         values: &[NodeId],
         formulas: &mut Vec<Formula<'a>>,
     ) {
+        let mut read = 0;
         for (index, &value) in values.iter().enumerate() {
+            if value.0 < read {
+                continue;
+            }
+            read = self.reach(value);
+            if index > 0 && !self.tree.is_list(value) {
+                self.stray("a field such as `:effect`", value);
+                continue;
+            }
             if index > 0 {
                 let span = self.opening(value);
                 self.diagnostics.push(several_formulas::several_formulas(field, span));

@@ -1,11 +1,16 @@
 //! Conditions, effects and expressions.
 
+use std::ops::Range;
+
 use super::list::Names;
 use super::{Reader, is_number, lower};
 use crate::ast::{
-    Connective, Feature, Formula, Modality, Name, Node, NodeKind, Operator, Place, Quantifier, Time,
+    Application, Connective, Feature, Formula, Modality, Name, Node, NodeKind, Operator, Place,
+    Quantifier, Time, TypedList,
 };
-use crate::diagnostic::{unknown_predicate, unknown_time_specifier};
+use crate::diagnostic::{
+    misplaced_parenthesis, unexpected_item, unknown_predicate, unknown_time_specifier,
+};
 use crate::near::nearest;
 use crate::tree::{self, NodeId};
 
@@ -29,6 +34,8 @@ enum Step {
 /// A node whose operands are being read.
 struct Open {
     index: usize,
+    /// Its list.
+    list: NodeId,
     /// The node of the tree after its list.
     end: u32,
     operands: Operands,
@@ -48,7 +55,7 @@ impl<'a> Reader<'a, '_> {
     fn read(&mut self, root: NodeId, wanted: Operands) -> Formula<'a> {
         let mut formula = Formula::default();
         let mut open: Vec<Open> = Vec::new();
-        let end = self.tree.node(root).next;
+        let end = self.reach(root);
         let mut at = root.0;
         while at < end {
             close(&mut formula, &mut open, at);
@@ -60,7 +67,7 @@ impl<'a> Reader<'a, '_> {
                 tree::NodeKind::List | tree::NodeKind::OpenList => {
                     let index = formula.nodes.len();
                     if let Step::Into(first, operands) = self.node(id, operands, &mut formula) {
-                        open.push(Open { index, end: node.next, operands });
+                        open.push(Open { index, list: id, end: node.next, operands });
                         at = first;
                     }
                 }
@@ -68,8 +75,25 @@ impl<'a> Reader<'a, '_> {
                     self.push(NodeKind::Word(self.name(id)), id, &mut formula);
                 }
                 tree::NodeKind::Atom => {
-                    self.unexpected("a formula in parentheses", id);
-                    self.nothing(id, &mut formula);
+                    if let Some(list) = self.called(id) {
+                        let index = formula.nodes.len();
+                        let list_end = self.tree.node(list).next;
+                        at = list_end;
+                        if let Step::Into(first, operands) = self.call(id, list, &mut formula) {
+                            open.push(Open { index, list, end: list_end, operands });
+                            at = first;
+                        }
+                        continue;
+                    }
+                    self.stray("a formula in parentheses", id);
+                    // Where formulas stand beside it, it is too much; where none does, it stands for one.
+                    let beside = open.last().is_some_and(|open| {
+                        let mut parts = self.tree.children(open.list);
+                        parts.any(|part| self.tree.is_list(part))
+                    });
+                    if !beside {
+                        self.nothing(id, &mut formula);
+                    }
                 }
                 _ => {}
             }
@@ -157,6 +181,62 @@ impl<'a> Reader<'a, '_> {
         };
         self.push(NodeKind::Connective(connective), id, formula);
         Some(Step::Into(after, Operands::Formulas))
+    }
+
+    /// The node of the tree after a formula that starts at `root`.
+    pub(super) fn reach(&self, root: NodeId) -> u32 {
+        let atom = self.tree.node(root).kind == tree::NodeKind::Atom;
+        let last = self.called(root).filter(|_| atom).unwrap_or(root);
+        self.tree.node(last).next
+    }
+
+    /// The list that follows a word which should stand in it: `not (p)`, `p(?x)`.
+    fn called(&self, id: NodeId) -> Option<NodeId> {
+        let tree = self.tree;
+        let word = tree.slice(id);
+        let mut at = id.0 + 1;
+        let end = tree.nodes().len() as u32;
+        let negation = word.eq_ignore_ascii_case("not");
+        while negation && at < end && tree.node(NodeId(at)).kind == tree::NodeKind::Space {
+            at += 1;
+        }
+        let named = !word.starts_with(['?', ':', '-']) && !is_number(word);
+        (at < end && named && tree.is_list(NodeId(at))).then_some(NodeId(at))
+    }
+
+    /// Whether a comment stands right before a node.
+    fn after_comment(&self, id: NodeId) -> bool {
+        let before = &self.tree.nodes()[..id.0 as usize];
+        let last = before.iter().rev().find(|node| node.kind != tree::NodeKind::Space);
+        last.is_some_and(|node| node.kind == tree::NodeKind::Comment)
+    }
+
+    /// Reads `not (p)` as `(not (p))` and `p(?x)` as `(p ?x)`, after the report.
+    fn call(&mut self, word: NodeId, list: NodeId, formula: &mut Formula<'a>) -> Step {
+        let tree = self.tree;
+        let name = self.name(word);
+        let (before, after) = (tree.span(word), tree.span(list));
+        let index = formula.nodes.len();
+        let step = if name.is("not") {
+            self.diagnostics.push(misplaced_parenthesis::before_list(name.text, before, after));
+            self.push(NodeKind::Connective(Connective::Not), word, formula);
+            Step::Into(list.0, Operands::Formulas)
+        } else {
+            self.diagnostics.push(misplaced_parenthesis::call(name.text, before, after));
+            let arguments = self.arguments(list, &mut formula.terms);
+            self.push(NodeKind::Apply(Application { name, arguments }), word, formula);
+            Step::Over
+        };
+        formula.nodes[index].place = Place(before.to(after));
+        step
+    }
+
+    /// The words in a list as arguments.
+    fn arguments(&self, list: NodeId, terms: &mut Vec<Name<'a>>) -> Range<u32> {
+        let start = terms.len() as u32;
+        let words = self.tree.children(list).filter(|&word| !self.tree.is_list(word));
+        terms.extend(words.map(|word| self.name(word)));
+        start..terms.len() as u32
     }
 
     /// Whether a list that starts like an assignment is one, and no predicate of that name.
@@ -252,11 +332,33 @@ impl<'a> Reader<'a, '_> {
         formula: &mut Formula<'a>,
     ) -> Step {
         let tree = self.tree;
-        let Some(list) = tree.children(id).nth(1).filter(|&list| tree.is_list(list)) else {
-            self.unexpected(&format!("`({} (?x - TYPE) FORMULA)`", quantifier.word()), id);
+        let parts: Vec<NodeId> = tree.children(id).skip(1).collect();
+        let variables = parts.iter().take_while(|&&part| {
+            !tree.is_list(part) && self.called(part).is_none() && !self.after_comment(part)
+        });
+        let words = variables.count();
+        let keyword = tree.children(id).next().map_or(tree.span(id), |keyword| tree.span(keyword));
+        let word = quantifier.word();
+        if words > 0 && parts.len() > words {
+            // `(forall ?x - t FORMULA)`
+            let span = tree.span(parts[0]).to(tree.span(parts[words - 1]));
+            self.diagnostics.push(misplaced_parenthesis::variables(word, span));
+            let variables = self.typed_list(parts[..words].iter().copied(), Names::Variables);
+            self.push(NodeKind::Quantifier(quantifier, variables), id, formula);
+            return Step::Into(parts[words].0, Operands::Formulas);
+        }
+        let Some(&list) = parts.first().filter(|&&list| tree.is_list(list)) else {
+            self.unexpected(&format!("`({word} (?x - TYPE) FORMULA)`"), id);
             self.nothing(id, formula);
             return Step::Over;
         };
+        if parts.len() == 1 && self.head(list).is_some_and(|head| !head.is_variable()) {
+            // `(exists FORMULA)`
+            let expected = format!("a list of variables such as `(?x - TYPE)` after `{word}`");
+            self.diagnostics.push(unexpected_item::missing_item(&expected, keyword));
+            self.push(NodeKind::Quantifier(quantifier, TypedList::default()), id, formula);
+            return Step::Into(list.0, Operands::Formulas);
+        }
         let variables = self.typed_list(tree.children(list), Names::Variables);
         self.push(NodeKind::Quantifier(quantifier, variables), id, formula);
         Step::Into(tree.node(list).next, Operands::Formulas)
@@ -271,6 +373,17 @@ impl<'a> Reader<'a, '_> {
     ) -> Step {
         if let Some(application) = self.application(id, &mut formula.terms) {
             self.push(NodeKind::Apply(application), id, formula);
+            return Step::Over;
+        }
+        let operands: Vec<NodeId> = self.tree.children(id).skip(1).collect();
+        if let &[list] = operands.as_slice()
+            && self.head(list).is_some_and(|first| first.is_variable())
+        {
+            // `(p(?x ?y))`: no function has the name of a variable.
+            let span = self.tree.span(list);
+            self.diagnostics.push(misplaced_parenthesis::around_arguments(head.text, span));
+            let arguments = self.arguments(list, &mut formula.terms);
+            self.push(NodeKind::Apply(Application { name: head, arguments }), id, formula);
             return Step::Over;
         }
         self.push(NodeKind::Nested(head), id, formula);
