@@ -14,6 +14,13 @@ use crate::tree::{NodeId, NodeKind, Tree};
 /// How many repeated facts are told one by one, so that a text full of them is not answered with another.
 const SHOWN: usize = 10;
 
+/// An entry that has been read.
+struct Seen {
+    hash: u64,
+    atom: NodeId,
+    positive: bool,
+}
+
 /// What there is to say about the initial state.
 pub(super) fn check(text: &Text<'_, '_>, domain: &Domain, found: &mut Diagnostics) {
     let tree = text.tree;
@@ -24,11 +31,12 @@ pub(super) fn check(text: &Text<'_, '_>, domain: &Domain, found: &mut Diagnostic
         .map(|predicate| predicate.name.text.to_ascii_lowercase())
         .collect();
     let mut told: HashSet<String> = HashSet::new();
-    let mut seen: HashTable<(NodeId, bool)> = HashTable::new();
+    let mut seen: HashTable<Seen> = HashTable::new();
     let mut repeated = 0;
     for entry in text.all(":init").flat_map(|section| tree.children(section.list).skip(1)) {
-        let (atom, positive) = match tree.children(entry).collect::<Vec<_>>().as_slice() {
-            &[word, atom] if text.is(word, "not") && tree.is_list(atom) => (atom, false),
+        let mut parts = tree.children(entry);
+        let (atom, positive) = match (parts.next(), parts.next()) {
+            (Some(word), Some(atom)) if text.is(word, "not") && tree.is_list(atom) => (atom, false),
             _ => (entry, true),
         };
         if !derived.is_empty()
@@ -39,14 +47,15 @@ pub(super) fn check(text: &Text<'_, '_>, domain: &Domain, found: &mut Diagnostic
         {
             found.push(derived_fact::derived_fact(tree.slice(head), tree.span(atom)));
         }
-        let same = |&(other, _): &(NodeId, bool)| equal(tree, atom, other);
-        match seen.entry(hash(tree, atom), same, |&(other, _)| hash(tree, other)) {
+        let hash = hash(tree, atom);
+        let same = |seen: &Seen| seen.hash == hash && equal(tree, atom, seen.atom);
+        match seen.entry(hash, same, |seen| seen.hash) {
             Entry::Vacant(vacant) => {
-                vacant.insert((atom, positive));
+                vacant.insert(Seen { hash, atom, positive });
             }
             Entry::Occupied(occupied) => {
-                let &(first, before) = occupied.get();
-                if before != positive {
+                let first = occupied.get().atom;
+                if occupied.get().positive != positive {
                     found.push(contradictory_fact::contradictory_fact(
                         tree.span(entry),
                         tree.span(first),
@@ -89,7 +98,13 @@ fn hash(tree: &Tree<'_>, node: NodeId) -> u64 {
     let mut hasher = FxHasher::default();
     for (list, word) in tokens(tree, node) {
         list.hash(&mut hasher);
-        word.bytes().for_each(|byte| byte.to_ascii_lowercase().hash(&mut hasher));
+        // Eight letters at a time.
+        for letters in word.as_bytes().chunks(8) {
+            let mut eight = [0; 8];
+            eight[..letters.len()].copy_from_slice(letters);
+            eight.make_ascii_lowercase();
+            eight.hash(&mut hasher);
+        }
     }
     hasher.finish()
 }
