@@ -70,7 +70,7 @@ impl Reader {
         }
         for path in paths {
             let Some(Kind::Problem { domain: wanted, .. }) = self.kind(path)? else { continue };
-            let problem = self.take(path)?;
+            let id = self.take(path)?;
             let named = |(domain, _): &&(Domain, bool)| {
                 wanted.as_ref().is_none_or(|wanted| domain.name.text.eq_ignore_ascii_case(wanted))
             };
@@ -96,12 +96,14 @@ impl Reader {
             }
             let (domain, sound) =
                 domains.iter().find(named).or(domains.last()).expect("one has just been added");
-            let (problem, more) = lang::read_problem(&self.sources, problem, domain);
+            let (problem, more) = lang::read_problem(&self.sources, id, domain);
             let sound = *sound && !more.has_errors();
             found.append(more);
             if sound {
                 found.append(lint::problem(domain, &problem));
+                found.append(lint::text(&self.sources, id, domain));
             }
+            lint::tell_factors(&mut found, domain, &problem);
         }
         allow::apply(&mut found, &self.sources);
         self.settle(&mut found);
@@ -170,6 +172,7 @@ impl Reader {
         found.append(more);
         if sound {
             found.append(lint::domain(&domain));
+            found.append(lint::text(&self.sources, id, &domain));
         }
         Ok((domain, sound))
     }

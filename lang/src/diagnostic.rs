@@ -22,6 +22,10 @@ pub mod unknown_predicate;
 pub mod unused_parameter;
 pub mod shadowed_variable;
 pub mod unused_predicate;
+pub mod unused_function;
+pub mod unused_type;
+pub mod unused_variable;
+pub mod fixed_parameter;
 pub mod unknown_variable;
 pub mod unknown_object;
 pub mod duplicate_definition;
@@ -37,13 +41,25 @@ pub mod cyclic_types;
 pub mod function_as_predicate;
 pub mod predicate_as_function;
 pub mod suspicious_type_list;
+pub mod disjoint_types;
+pub mod untyped_tail;
 pub mod unknown_requirement;
 pub mod missing_requirement;
+pub mod unused_requirement;
+pub mod repeated_requirement;
 pub mod unsupported_feature;
 pub mod wrong_operand_count;
 pub mod contradictory_effect;
 pub mod constant_condition;
 pub mod never_applicable;
+pub mod effect_without_change;
+pub mod action_without_effect;
+pub mod repeated_condition;
+pub mod repeated_effect;
+pub mod identical_actions;
+pub mod decided_condition;
+pub mod circular_rule;
+pub mod overridden_effect;
 pub mod disjunctive_effect;
 pub mod when_in_condition;
 pub mod unstratified_axioms;
@@ -60,6 +76,15 @@ pub mod variable_in_init;
 pub mod goal_unreachable;
 pub mod goal_already_true;
 pub mod action_atom_arity;
+pub mod repeated_fact;
+pub mod contradictory_fact;
+pub mod derived_fact;
+pub mod constant_metric;
+pub mod cost_without_metric;
+pub mod contradictory_goal;
+pub mod type_without_objects;
+pub mod static_predicate;
+pub mod unread_predicate;
 pub mod agent_without_multi_agent;
 pub mod private_access;
 pub mod unknown_constraint;
@@ -99,6 +124,10 @@ pub const RULES: &[Rule] = &[
     unused_parameter::RULE,
     shadowed_variable::RULE,
     unused_predicate::RULE,
+    unused_function::RULE,
+    unused_type::RULE,
+    unused_variable::RULE,
+    fixed_parameter::RULE,
     unknown_variable::RULE,
     unknown_object::RULE,
     duplicate_definition::RULE,
@@ -114,13 +143,25 @@ pub const RULES: &[Rule] = &[
     function_as_predicate::RULE,
     predicate_as_function::RULE,
     suspicious_type_list::RULE,
+    disjoint_types::RULE,
+    untyped_tail::RULE,
     unknown_requirement::RULE,
     missing_requirement::RULE,
+    unused_requirement::RULE,
+    repeated_requirement::RULE,
     unsupported_feature::RULE,
     wrong_operand_count::RULE,
     contradictory_effect::RULE,
     constant_condition::RULE,
     never_applicable::RULE,
+    effect_without_change::RULE,
+    action_without_effect::RULE,
+    repeated_condition::RULE,
+    repeated_effect::RULE,
+    identical_actions::RULE,
+    decided_condition::RULE,
+    circular_rule::RULE,
+    overridden_effect::RULE,
     disjunctive_effect::RULE,
     when_in_condition::RULE,
     unstratified_axioms::RULE,
@@ -137,6 +178,15 @@ pub const RULES: &[Rule] = &[
     goal_unreachable::RULE,
     goal_already_true::RULE,
     action_atom_arity::RULE,
+    repeated_fact::RULE,
+    contradictory_fact::RULE,
+    derived_fact::RULE,
+    constant_metric::RULE,
+    cost_without_metric::RULE,
+    contradictory_goal::RULE,
+    type_without_objects::RULE,
+    static_predicate::RULE,
+    unread_predicate::RULE,
     agent_without_multi_agent::RULE,
     private_access::RULE,
     unknown_constraint::RULE,

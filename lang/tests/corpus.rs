@@ -30,13 +30,17 @@ fn read(domain: &Path, problem: &Path) -> (Diagnostics, Sources) {
             fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         sources.add(path.display().to_string(), text)
     };
-    let (domain, problem) = (add(domain), add(problem));
-    let (model, mut diagnostics) = lang::read_domain(&sources, domain);
-    let (problem, more) = lang::read_problem(&sources, problem, &model);
+    let ids = [add(domain), add(problem)];
+    let (model, mut diagnostics) = lang::read_domain(&sources, ids[0]);
+    let (problem, more) = lang::read_problem(&sources, ids[1], &model);
     diagnostics.append(more);
     if !diagnostics.has_errors() {
         diagnostics.append(lint::domain(&model));
         diagnostics.append(lint::problem(&model, &problem));
+        for id in ids {
+            diagnostics.append(lint::text(&sources, id, &model));
+        }
+        lint::tell_factors(&mut diagnostics, &model, &problem);
     }
     (diagnostics, sources)
 }
@@ -98,9 +102,11 @@ fn tricky_valid_files_have_no_messages() {
     let (folder, good) = (corpus.join("valid-pddl"), corpus.join("bad-pddl"));
     for case in cases(&folder.join("valid.json")) {
         let (domain, problem) = pair(&case, &folder, &good);
-        let (diagnostics, sources) = read(&domain, &problem);
-        let errors = diagnostics.has_errors();
-        assert!(!errors, "{}: {}", case["why"], render::concise(&diagnostics, &sources));
+        let (mut diagnostics, sources) = read(&domain, &problem);
+        // One of them has types and no `:requirements` at all, and is told so.
+        diagnostics.list.retain(|one| one.name != "missing-requirement");
+        let said = render::concise(&diagnostics, &sources);
+        assert_eq!(said, "", "{}", case["why"]);
     }
 }
 
