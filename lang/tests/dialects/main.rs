@@ -29,6 +29,9 @@ fn read(domain: &str, problem: &str) -> Read {
     diagnostics.append(more);
     diagnostics.append(lint::domain(&domain));
     diagnostics.append(lint::problem(&domain, &problem));
+    for id in ids {
+        diagnostics.append(lint::text(&sources, id, &domain));
+    }
     let said = render::concise(&diagnostics, &sources);
     Read { domain, problem, said, sources, names: [first, second] }
 }
