@@ -1,10 +1,11 @@
 //! Actions of all kinds, and the fields of everything that has fields.
 
 use super::list::Names;
-use super::{Reader, lower};
+use super::{Reader, is_number, lower};
 use crate::ast::{Action, ActionKind, Feature, Formula, Name, TypedList};
 use crate::diagnostic::{
-    duplicate_field, missing_duration, several_formulas, unexpected_item, unknown_field,
+    duplicate_field, invalid_duration, missing_duration, several_formulas, unexpected_item,
+    unknown_field,
 };
 use crate::near::nearest;
 use crate::source::Span;
@@ -238,7 +239,14 @@ impl<'a> Reader<'a, '_> {
                 ":effect" => self.formulas(field, &values, &mut action.effects),
                 ":duration" => {
                     timed = true;
-                    self.formulas(field, &values, &mut action.durations);
+                    match values.as_slice() {
+                        &[value] if !self.tree.is_list(value) => {
+                            let (text, span) = (self.tree.slice(value), self.tree.span(value));
+                            let number = is_number(text).then_some(text);
+                            self.diagnostics.push(invalid_duration::not_a_constraint(number, span));
+                        }
+                        _ => self.formulas(field, &values, &mut action.durations),
+                    }
                 }
                 ":agent" => action.agent = self.agent(keyword, &values).or(action.agent),
                 ":comment" => {}

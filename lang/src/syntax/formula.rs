@@ -242,10 +242,16 @@ impl<'a> Reader<'a, '_> {
     /// Whether a list that starts like an assignment is one, and no predicate of that name.
     fn changes(&self, id: NodeId) -> bool {
         let tree = self.tree;
-        let mut operands = tree.children(id).skip(1);
-        let target = operands.next();
+        let operands: Vec<NodeId> = tree.children(id).skip(1).collect();
         let valued = |operand: NodeId| tree.is_list(operand) || is_number(tree.slice(operand));
-        target.is_some_and(|target| tree.is_list(target)) || operands.next().is_some_and(valued)
+        match operands.as_slice() {
+            [target, amount] if !tree.is_list(*target) && !valued(*amount) => {
+                !self.head(id).is_some_and(|head| self.declares(head))
+            }
+            [_, amount] if valued(*amount) => true,
+            [target, ..] => tree.is_list(*target),
+            [] => false,
+        }
     }
 
     /// What stands around formulas: time specifiers, preferences, modalities.
@@ -268,6 +274,23 @@ impl<'a> Reader<'a, '_> {
                     node.keyword = Place(both);
                 }
                 return Some(Step::Into(after, Operands::Formulas));
+            }
+            "atstart" | "at-start" | "atend" | "at-end" | "overall" | "over-all"
+                if !worded && operands.next().is_none() =>
+            {
+                let time = match word.as_bytes()[word.len() - 1] {
+                    b't' => Time::AtStart,
+                    b'd' => Time::AtEnd,
+                    _ => Time::OverAll,
+                };
+                let head = self.head(id)?;
+                self.diagnostics.push(unknown_time_specifier::in_one_word(
+                    head.text,
+                    head.span,
+                    time.words(),
+                ));
+                self.push(NodeKind::Timed(time), id, formula);
+                return Some(Step::Into(first.0, Operands::Formulas));
             }
             "preference" => {
                 let name = worded.then(|| self.name(first));
@@ -391,19 +414,23 @@ impl<'a> Reader<'a, '_> {
         Step::Into(first.0, Operands::Values)
     }
 
-    /// The connective that is probably meant by a word in front of formulas, after the report.
+    /// The word of the language that is probably meant in front of formulas or values, after the report.
     fn misspelt(&mut self, head: Name<'a>, id: NodeId) -> Option<&'static str> {
-        const WORDS: [&str; 7] = ["and", "or", "not", "imply", "when", "forall", "exists"];
+        const CONNECTIVES: [&str; 7] = ["and", "or", "not", "imply", "when", "forall", "exists"];
+        const CHANGES: [&str; 5] = ["increase", "decrease", "assign", "scale-up", "scale-down"];
         let tree = self.tree;
-        let mut operands = tree.children(id).skip(1);
-        let lists = operands.clone().next().is_some() && operands.all(|part| tree.is_list(part));
-        if !lists || head.text.len() < 3 || self.declares(head) {
+        let operands: Vec<NodeId> = tree.children(id).skip(1).collect();
+        if operands.is_empty() || head.text.len() < 3 {
             return None;
         }
-        let near = nearest(head.text, WORDS)?;
-        let meant = WORDS.into_iter().find(|&word| word == near)?;
-        self.diagnostics
-            .push(unknown_predicate::unknown_predicate(head.text, head.span, Some(meant)).safely());
+        let lists = operands.iter().all(|&part| tree.is_list(part));
+        let change = tree.is_list(operands[0]) && operands.len() == 2;
+        let known = CONNECTIVES.into_iter().filter(|_| lists);
+        let known: Vec<&str> = known.chain(CHANGES.into_iter().filter(|_| change)).collect();
+        let near = nearest(head.text, known.iter().copied()).filter(|_| !self.declares(head))?;
+        let meant = known.into_iter().find(|&word| word == near)?;
+        let unknown = unknown_predicate::unknown_predicate(head.text, head.span, Some(meant));
+        self.diagnostics.push(unknown.safely());
         Some(meant)
     }
 
