@@ -2,4 +2,5 @@
 
 mod costs;
 mod domains;
+mod replay;
 mod tidy;
