@@ -2,5 +2,6 @@
 
 mod costs;
 mod domains;
+mod listings;
 mod replay;
 mod tidy;
