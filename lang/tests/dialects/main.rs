@@ -93,9 +93,10 @@ fn features(read: &Read) -> Vec<ast::Feature> {
 #[test]
 fn time() {
     let read = right(include_str!("time-domain.pddl"), include_str!("time-problem.pddl"));
-    use ast::Feature::{DurativeActions, Metrics, NumericConditions, NumericEffects, TimedLiterals};
-    let wanted =
-        [NumericConditions, NumericEffects, DurativeActions, TimedLiterals, Metrics];
+    use ast::Feature::{
+        DurativeActions, Metrics, NumericConditions, NumericEffects, TimedLiterals,
+    };
+    let wanted = [NumericConditions, NumericEffects, DurativeActions, TimedLiterals, Metrics];
     assert_eq!(features(&read), wanted);
     let signatures: Vec<&str> =
         read.domain.signatures.iter().map(|one| one.name.text.as_str()).collect();
@@ -115,14 +116,11 @@ fn numbers_and_objects_as_values() {
 
 #[test]
 fn preferences_and_constraints() {
-    let read = right(
-        include_str!("preferences-domain.pddl"),
-        include_str!("preferences-problem.pddl"),
-    );
+    let read =
+        right(include_str!("preferences-domain.pddl"), include_str!("preferences-problem.pddl"));
     use ast::Feature::{Constraints, Metrics, Preferences};
     assert_eq!(features(&read), [Preferences, Constraints, Metrics]);
-    let named: Vec<&str> =
-        read.domain.preferences.iter().map(|name| name.text.as_str()).collect();
+    let named: Vec<&str> = read.domain.preferences.iter().map(|name| name.text.as_str()).collect();
     assert_eq!(named, ["no-pile", "dry-hands"]);
 }
 
