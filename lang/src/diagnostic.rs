@@ -31,11 +31,14 @@ pub mod duplicate_definition;
 pub mod duplicate_parameter;
 pub mod domain_name_mismatch;
 pub mod unknown_function;
+pub mod unknown_preference;
+pub mod unknown_action;
 pub mod wrong_arity;
 pub mod type_mismatch;
 pub mod unknown_type;
 pub mod cyclic_types;
 pub mod function_as_predicate;
+pub mod predicate_as_function;
 pub mod suspicious_type_list;
 pub mod disjoint_types;
 pub mod untyped_tail;
@@ -60,8 +63,14 @@ pub mod disjunctive_effect;
 pub mod when_in_condition;
 pub mod unstratified_axioms;
 pub mod uninitialised_function;
+pub mod wrong_value;
+pub mod missing_time_specifier;
 pub mod missing_duration;
+pub mod misplaced_time_specifier;
+pub mod unknown_time_specifier;
+pub mod invalid_duration;
 pub mod derived_effect;
+pub mod misplaced_modality;
 pub mod variable_in_init;
 pub mod goal_unreachable;
 pub mod goal_already_true;
@@ -74,7 +83,14 @@ pub mod contradictory_goal;
 pub mod type_without_objects;
 pub mod static_predicate;
 pub mod unread_predicate;
+pub mod action_atom_arity;
 pub mod agent_without_multi_agent;
+pub mod private_access;
+pub mod unknown_constraint;
+pub mod constraint_position;
+pub mod subtask_arity;
+pub mod unknown_task;
+pub mod unknown_subtask;
 pub mod plan_syntax;
 pub mod plan_unknown_action;
 pub mod plan_wrong_arity;
@@ -116,11 +132,14 @@ pub const RULES: &[Rule] = &[
     duplicate_parameter::RULE,
     domain_name_mismatch::RULE,
     unknown_function::RULE,
+    unknown_preference::RULE,
+    unknown_action::RULE,
     wrong_arity::RULE,
     type_mismatch::RULE,
     unknown_type::RULE,
     cyclic_types::RULE,
     function_as_predicate::RULE,
+    predicate_as_function::RULE,
     suspicious_type_list::RULE,
     disjoint_types::RULE,
     untyped_tail::RULE,
@@ -145,8 +164,14 @@ pub const RULES: &[Rule] = &[
     when_in_condition::RULE,
     unstratified_axioms::RULE,
     uninitialised_function::RULE,
+    wrong_value::RULE,
+    missing_time_specifier::RULE,
     missing_duration::RULE,
+    misplaced_time_specifier::RULE,
+    unknown_time_specifier::RULE,
+    invalid_duration::RULE,
     derived_effect::RULE,
+    misplaced_modality::RULE,
     variable_in_init::RULE,
     goal_unreachable::RULE,
     goal_already_true::RULE,
@@ -159,7 +184,14 @@ pub const RULES: &[Rule] = &[
     type_without_objects::RULE,
     static_predicate::RULE,
     unread_predicate::RULE,
+    action_atom_arity::RULE,
     agent_without_multi_agent::RULE,
+    private_access::RULE,
+    unknown_constraint::RULE,
+    constraint_position::RULE,
+    subtask_arity::RULE,
+    unknown_task::RULE,
+    unknown_subtask::RULE,
     plan_syntax::RULE,
     plan_unknown_action::RULE,
     plan_wrong_arity::RULE,
@@ -300,6 +332,29 @@ impl Diagnostic {
             edits: vec![(span, replacement.into())],
         });
         self
+    }
+
+    /// Offers to write something around the place of the mistake.
+    #[must_use]
+    pub fn wrap(mut self, before: &str, after: &str) -> Self {
+        let Span { source, start, end } = self.primary.span;
+        self.fixes.push(Fix {
+            applicability: Applicability::Suggested,
+            title: format!("write `{before}…{after}` around it"),
+            edits: vec![
+                (Span::new(source, start, start), before.to_owned()),
+                (Span::new(source, end, end), after.to_owned()),
+            ],
+        });
+        self
+    }
+
+    /// Offers to declare a requirement, at a place in the list of them or before it if the list `is_missing`.
+    #[must_use]
+    pub fn fix_requirement(self, flag: &str, (place, is_missing): (Span, bool)) -> Self {
+        let text =
+            if is_missing { format!("\n  (:requirements {flag})") } else { format!(" {flag}") };
+        self.fix(format!("declare `{flag}`"), place, text).safely()
     }
 
     /// Says that the last fix only writes what the text was taken to mean anyway.

@@ -2,6 +2,9 @@
 
 mod list;
 mod formula;
+mod action;
+mod agents;
+mod network;
 mod domain;
 mod problem;
 
@@ -168,7 +171,7 @@ fn lower<'b>(word: &str, buffer: &'b mut [u8; 24]) -> &'b str {
 }
 
 /// Whether a word is a number and no name: `15` is one, `15-puzzle` is not.
-fn is_number(word: &str) -> bool {
+pub(crate) fn is_number(word: &str) -> bool {
     fn unsigned(word: &str) -> &str {
         word.strip_prefix(['-', '+']).unwrap_or(word)
     }

@@ -140,6 +140,9 @@ fn multi_agent_domains_have_no_errors() {
             domains += 1;
             let (_, mut diagnostics) = lang::read_domain(&sources, id);
             diagnostics.list.retain(|one| one.severity == Severity::Error);
+            let ill_formed = ILL_FORMED.iter().any(|ending| file.ends_with(ending));
+            assert!(!ill_formed || diagnostics.has_errors(), "{} is all right", file.display());
+            diagnostics.list.retain(|one| !ill_formed || one.code != "E0801");
             wrong.push(render::concise(&diagnostics, &sources));
         }
     }
@@ -147,8 +150,8 @@ fn multi_agent_domains_have_no_errors() {
     assert_eq!(wrong.concat(), "");
 }
 
-/// What these need is not read yet: methods.
-const LATER: [&str; 1] = ["E0901"];
+/// Domains that name actions with too few arguments, as the corpus says itself.
+const ILL_FORMED: [&str; 2] = ["boxpushing/domain_v2.pddl", "notation/t15_arity.pddl"];
 
 #[test]
 fn bad_files_have_the_one_message_that_is_wanted() {
@@ -157,9 +160,6 @@ fn bad_files_have_the_one_message_that_is_wanted() {
     let mut checked = 0;
     for case in cases(&folder.join("expectations.json")) {
         let code = case["code"].as_str().expect("a case has a code");
-        if LATER.contains(&code) {
-            continue;
-        }
         checked += 1;
         let (domain, problem) = pair(&case, &folder, &folder);
         let (diagnostics, sources) = read(&domain, &problem);

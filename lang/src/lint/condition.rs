@@ -161,7 +161,7 @@ enum Shape<'m> {
     Atom(&'m Atom),
     Equal(Term, Term),
     Of(&'static str, Vec<u32>),
-    /// What binds variables has its own, so no two are the same.
+    /// A binder has variables of its own, so no two are the same.
     Alone(u32),
 }
 
@@ -176,7 +176,8 @@ fn classes(formula: &Formula) -> Vec<u32> {
             // Some write both ways of comparing two things on purpose.
             &NodeKind::Equal(left, right) => Shape::Equal(left, right),
             NodeKind::Not(child) => Shape::Of("not", of(&[*child])),
-            NodeKind::And(children) => Shape::Of("and", of(children)),
+            // `()` also stands for what has not been resolved.
+            NodeKind::And(children) if !children.is_empty() => Shape::Of("and", of(children)),
             NodeKind::Or(children) => Shape::Of("or", of(children)),
             NodeKind::Imply(left, right) => Shape::Of("imply", of(&[*left, *right])),
             _ => Shape::Alone(index as u32),
