@@ -3,4 +3,6 @@
 mod bad;
 mod costs;
 mod domains;
+mod listings;
+mod replay;
 mod tidy;

@@ -22,7 +22,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use hashbrown::HashSet;
 
 use crate::ast::{self, Feature};
-use crate::diagnostic::{Diagnostic, Diagnostics, Rule, missing_requirement};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, missing_requirement, unknown_variable};
 use crate::model::{self, FunctionId, Object, TypeId, Use, Variable};
 use crate::source::Span;
 use crate::symbol::{Occurrences, Role};
@@ -49,7 +49,7 @@ struct Report<'d> {
     missing: Flags,
     /// Where a missing requirement can be written, and whether the list of them must be written too.
     flags: (Span, bool),
-    /// Whether there is no domain, so that nothing can be said about unknown names.
+    /// Whether there is no domain, or only a piece of one, so that nothing can be said about unknown names but variables.
     blind: bool,
     /// Whether a metric is read, where more words have a meaning.
     metric: bool,
@@ -107,7 +107,8 @@ impl<'d> Report<'d> {
 
     /// Whether this is the first mistake of this kind about this name.
     fn first(&mut self, rule: &Rule, name: &str) -> bool {
-        !self.blind && self.said.insert((rule.code, name.to_ascii_lowercase()))
+        (!self.blind || rule.code == unknown_variable::RULE.code)
+            && self.said.insert((rule.code, name.to_ascii_lowercase()))
     }
 
     /// The name that was probably meant.
@@ -126,7 +127,7 @@ impl<'d> Report<'d> {
     /// Says once for each requirement that something needs it.
     fn need(&mut self, need: Need, span: Span) {
         let (flags, proposed, name, what) = need.describe();
-        if !self.declared.meets(flags) && !self.missing.meets(flags) {
+        if !self.blind && !self.declared.meets(flags) && !self.missing.meets(flags) {
             self.missing.add(proposed);
             let diagnostic = missing_requirement::missing_requirement(name, span, what);
             self.push(diagnostic.fix_requirement(name, self.flags));

@@ -17,6 +17,7 @@ pub mod duplicate_field;
 pub mod connective_in_init;
 pub mod unexpected_item;
 pub mod not_utf8;
+pub mod misplaced_parenthesis;
 pub mod unknown_predicate;
 pub mod unused_parameter;
 pub mod shadowed_variable;
@@ -74,6 +75,7 @@ pub mod misplaced_modality;
 pub mod variable_in_init;
 pub mod goal_unreachable;
 pub mod goal_already_true;
+pub mod action_atom_arity;
 pub mod repeated_fact;
 pub mod contradictory_fact;
 pub mod derived_fact;
@@ -83,7 +85,6 @@ pub mod contradictory_goal;
 pub mod type_without_objects;
 pub mod static_predicate;
 pub mod unread_predicate;
-pub mod action_atom_arity;
 pub mod agent_without_multi_agent;
 pub mod private_access;
 pub mod unknown_constraint;
@@ -118,6 +119,7 @@ pub const RULES: &[Rule] = &[
     connective_in_init::RULE,
     unexpected_item::RULE,
     not_utf8::RULE,
+    misplaced_parenthesis::RULE,
     unknown_predicate::RULE,
     unused_parameter::RULE,
     shadowed_variable::RULE,
@@ -175,6 +177,7 @@ pub const RULES: &[Rule] = &[
     variable_in_init::RULE,
     goal_unreachable::RULE,
     goal_already_true::RULE,
+    action_atom_arity::RULE,
     repeated_fact::RULE,
     contradictory_fact::RULE,
     derived_fact::RULE,
@@ -184,7 +187,6 @@ pub const RULES: &[Rule] = &[
     type_without_objects::RULE,
     static_predicate::RULE,
     unread_predicate::RULE,
-    action_atom_arity::RULE,
     agent_without_multi_agent::RULE,
     private_access::RULE,
     unknown_constraint::RULE,
@@ -334,19 +336,22 @@ impl Diagnostic {
         self
     }
 
+    /// Adds another range to the last fix.
+    #[must_use]
+    pub fn along(mut self, span: Span, replacement: impl Into<String>) -> Self {
+        if let Some(fix) = self.fixes.last_mut() {
+            fix.edits.push((span, replacement.into()));
+        }
+        self
+    }
+
     /// Offers to write something around the place of the mistake.
     #[must_use]
-    pub fn wrap(mut self, before: &str, after: &str) -> Self {
+    pub fn wrap(self, before: &str, after: &str) -> Self {
         let Span { source, start, end } = self.primary.span;
-        self.fixes.push(Fix {
-            applicability: Applicability::Suggested,
-            title: format!("write `{before}…{after}` around it"),
-            edits: vec![
-                (Span::new(source, start, start), before.to_owned()),
-                (Span::new(source, end, end), after.to_owned()),
-            ],
-        });
-        self
+        let title = format!("write `{before}…{after}` around it");
+        self.fix(title, Span::new(source, start, start), before)
+            .along(Span::new(source, end, end), after)
     }
 
     /// Offers to declare a requirement, at a place in the list of them or before it if the list `is_missing`.

@@ -3,7 +3,9 @@
 use super::requirement::Need;
 use super::scope::{Bindings, Callee, Hidden};
 use super::{Report, World, agents, value};
-use crate::ast::{Connective, Feature, Formula, Modality, NodeKind as Ast, Quantifier, Time};
+use crate::ast::{
+    Application, Connective, Feature, Formula, Modality, NodeKind as Ast, Quantifier, Time,
+};
 use crate::diagnostic::{
     misplaced_modality, misplaced_time_specifier, missing_time_specifier, unexpected_item,
     unknown_predicate, when_in_condition, wrong_operand_count,
@@ -260,7 +262,15 @@ impl<'a> Condition<'_, '_, '_, 'a> {
     fn leaf(&mut self, formula: &Formula<'a>, at: usize) -> NodeId {
         let node = &formula.nodes[at];
         let span = node.place.0;
-        if !matches!(node.kind, Ast::Unread(_) | Ast::Connective(_)) {
+        // What cannot be understood is one mistake, whenever it should hold.
+        let understood = match &node.kind {
+            Ast::Apply(Application { name, .. }) | Ast::Nested(name) => {
+                let names = self.world.names;
+                names.predicates.find(name.text).or(names.actions.find(name.text)).is_some()
+            }
+            kind => !matches!(kind, Ast::Unread(_) | Ast::Connective(_)),
+        };
+        if understood {
             self.demand_time(span);
         }
         let kind = match &node.kind {

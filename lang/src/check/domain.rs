@@ -6,11 +6,12 @@ use super::requirement::{self, Need};
 use super::scope::{self, Bindings};
 use super::{Names, Report, World, action, agents, condition, effect, hierarchy, name, network};
 use crate::ast::{self, ActionKind, DomainSection, Feature, Head, Name, TypeReference, TypedList};
-use crate::diagnostic::{Diagnostics, derived_effect, duplicate_definition};
+use crate::diagnostic::{Diagnostics, derived_effect, duplicate_definition, unknown_type};
 use crate::model::{
     Action, Axiom, Domain, Formula, Function, FunctionId, Object, ObjectId, Owner, Predicate,
     PredicateId, TypeId, Variable,
 };
+use crate::near::nearest;
 use crate::source::Span;
 use crate::symbol::{Namespace, Occurrences, Role};
 
@@ -30,6 +31,8 @@ pub fn domain(
     let place = requirement::place(sections().flatten().last().copied(), ast.name);
     let mut report = Report::new(diagnostics, flags, place, occurrences);
     report.declared_here(ast.name, Namespace::Domain);
+    let declares = |section: &_| matches!(section, DomainSection::Predicates(_));
+    report.blind = ast.name.text.is_empty() && !ast.sections.iter().any(declares);
     let mut names = Names::default();
     let lists: Vec<&TypedList<'_>> = ast
         .sections
@@ -205,7 +208,14 @@ fn values(
     report: &mut Report<'_>,
 ) -> Option<Vec<TypeId>> {
     let types = types.filter(|types| !types.names[0].is("number"))?;
-    report.need(Need::ObjectFluent, types.names[0].span);
+    let first = types.names[0];
+    if names.types.find(first.text).is_some() {
+        report.need(Need::ObjectFluent, first.span);
+    } else if nearest(first.text, ["number"]).is_some() {
+        let near = Some("number");
+        report.push(unknown_type::unknown_type(first.text, first.span, "`:types`", near));
+        return None;
+    }
     Some(hierarchy::resolve(Some(types), &names.types, "`:types`", report))
 }
 

@@ -9,7 +9,8 @@ use super::scope::{Bindings, Callee, Hidden};
 use super::value::{self, Value};
 use super::{Report, World, condition, scope};
 use crate::ast::{
-    ActionKind, Connective, Feature, Formula, NodeKind as Ast, Operator, Quantifier, Time,
+    ActionKind, Application, Connective, Feature, Formula, NodeKind as Ast, Operator, Quantifier,
+    Time,
 };
 use crate::diagnostic::{
     contradictory_effect, disjunctive_effect, misplaced_time_specifier, missing_time_specifier,
@@ -214,8 +215,10 @@ impl<'a> Effects<'_, '_, '_, 'a> {
                 self.demand_time(span, timed);
                 self.delete(formula, at, group);
             }
-            Ast::Apply(_) | Ast::Nested(_) => {
-                self.demand_time(span, timed);
+            Ast::Apply(Application { name, .. }) | Ast::Nested(name) => {
+                if self.world.names.predicates.find(name.text).is_some() {
+                    self.demand_time(span, timed);
+                }
                 self.literal(formula, at, group, true, span);
             }
             Ast::Operator(operator) if operator.changes() => {
@@ -377,6 +380,7 @@ impl<'a> Effects<'_, '_, '_, 'a> {
             self.report.assigned.insert(function);
         }
         match (operator, value, arguments) {
+            (_, Value::Unknown, _) => {}
             (Operator::Increase, Value::Number(Some(value)), Some(arguments))
                 if self.kind == ActionKind::Instant =>
             {

@@ -18,6 +18,22 @@ pub fn invalid_duration(span: Span) -> Diagnostic {
     )
 }
 
+/// A word stands there, perhaps a `number`, and no constraint.
+pub fn not_a_constraint(number: Option<&str>, span: Span) -> Diagnostic {
+    let diagnostic = invalid_duration(span);
+    match number {
+        Some(number) => {
+            let meant = format!("(= ?duration {number})");
+            diagnostic.help(format!("write `{meant}`")).fix(
+                format!("replace with `{meant}`"),
+                span,
+                meant,
+            )
+        }
+        None => diagnostic,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use crate::diagnostic::fixture::check;
@@ -27,7 +43,7 @@ mod tests {
         check(&["(define (domain d)
   (:requirements :typing :durative-actions :duration-inequalities)
   (:types lamp)
-  (:predicates (lit))
+  (:predicates (lit) (on ?l - lamp))
   (:functions (time ?l - lamp))
   (:durative-action glow
     :parameters (?l - lamp)
@@ -38,7 +54,12 @@ mod tests {
     :parameters (?l - lamp)
     :duration (and (>= ?duration 2) (<= ?duration (* 2 (time ?l))) (lit))
 ;                                                                  ^^^^^ E0605: this is no constraint on `?duration`
-    :effect (at end (lit))))
+    :effect (at end (lit)))
+  (:durative-action blink
+    :parameters (?l - lamp)
+    :duration 5
+;             ^ E0605: this is no constraint on `?duration`
+    :effect (at end (on ?l))))
 "]);
     }
 }

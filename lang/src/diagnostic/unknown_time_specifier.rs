@@ -22,6 +22,13 @@ pub fn unknown_time_specifier(word: &str, name: &str, span: Span, meant: &str) -
     diagnostic.suggest(Some(meant)).safely()
 }
 
+/// `word`, such as `overall`, stands for the two words `meant`.
+pub fn in_one_word(word: &str, span: Span, meant: &str) -> Diagnostic {
+    RULE.at(span, format!("unknown time specifier `{word}`"), "two words are meant")
+        .suggest(Some(meant))
+        .safely()
+}
+
 #[cfg(test)]
 mod tests {
     use crate::diagnostic::fixture::check;
@@ -34,9 +41,10 @@ mod tests {
   (:durative-action glow
     :parameters ()
     :duration (= ?duration 5)
-    :condition (and (at strat (dark)) (at all (dark)))
+    :condition (and (at strat (dark)) (at all (dark)) (overall (dark)))
 ;                       ^^^^^ E0604: unknown time specifier `at strat`
 ;                                         ^^^ E0604: unknown time specifier `at all`
+;                                                      ^^^^^^^ E0604: unknown time specifier `overall`
     :effect (at end (lit))))
 "]);
     }

@@ -43,4 +43,14 @@ mod tests {
   (:action wash :parameters (?d - dish) :effect (clean ?d)))
 "]);
     }
+
+    #[test]
+    fn where_any_object_may_stand_all_are_used() {
+        lint(&["(define (domain d)
+  (:requirements :typing)
+  (:types robot object fork knife - object)
+  (:predicates (held ?o - object ?r - robot))
+  (:action take :parameters (?r - robot ?o - object) :effect (held ?o ?r)))
+"]);
+    }
 }

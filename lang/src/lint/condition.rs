@@ -176,8 +176,9 @@ fn classes(formula: &Formula) -> Vec<u32> {
             // Some write both ways of comparing two things on purpose.
             &NodeKind::Equal(left, right) => Shape::Equal(left, right),
             NodeKind::Not(child) => Shape::Of("not", of(&[*child])),
-            // `()` also stands for what has not been resolved.
-            NodeKind::And(children) if !children.is_empty() => Shape::Of("and", of(children)),
+            // What the model does not hold stands there as nothing, and no two such need be the same.
+            NodeKind::And(children) if children.is_empty() => Shape::Alone(index as u32),
+            NodeKind::And(children) => Shape::Of("and", of(children)),
             NodeKind::Or(children) => Shape::Of("or", of(children)),
             NodeKind::Imply(left, right) => Shape::Of("imply", of(&[*left, *right])),
             _ => Shape::Alone(index as u32),

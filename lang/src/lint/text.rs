@@ -141,8 +141,14 @@ fn types(domain: &Domain, words: &Words, found: &mut Diagnostics) {
         let word = domain.types[id.index()].name.text.to_ascii_lowercase();
         words.here.contains_key(&word) || words.functions.contains_key(&word)
     };
-    let mut used: Vec<bool> = (0..domain.types.len() as u32).map(|id| named(TypeId(id))).collect();
+    // Where anything may stand, every type takes part.
     let root = TypeId(0);
+    let parameters = domain.predicates.iter().flat_map(|predicate| &predicate.parameters);
+    let parameters = parameters.chain(domain.signatures.iter().flat_map(|one| &one.parameters));
+    if parameters.into_iter().any(|parameter| parameter.types.contains(&root)) {
+        return;
+    }
+    let mut used: Vec<bool> = (0..domain.types.len() as u32).map(|id| named(TypeId(id))).collect();
     // What stands above a type that is used, and below one, is used by way of it.
     let above: Vec<TypeId> = (1..domain.types.len())
         .filter(|&id| used[id])

@@ -1,10 +1,11 @@
 //! Actions of all kinds, and the fields of everything that has fields.
 
 use super::list::Names;
-use super::{Reader, lower};
+use super::{Reader, is_number, lower};
 use crate::ast::{Action, ActionKind, Feature, Formula, Name, TypedList};
 use crate::diagnostic::{
-    duplicate_field, missing_duration, several_formulas, unexpected_item, unknown_field,
+    duplicate_field, invalid_duration, missing_duration, several_formulas, unexpected_item,
+    unknown_field,
 };
 use crate::near::nearest;
 use crate::source::Span;
@@ -96,16 +97,34 @@ impl<'a> Reader<'a, '_> {
 
     /// The parts up to the next field.
     fn values(&self, field: Option<&str>, fields: &mut Fields<'a>) -> Vec<NodeId> {
-        // The value of `:agent` is no list: in `:agent ?a - agent` the last word is a type.
-        let bare = field == Some(":agent");
-        let ends = |&part: &NodeId| {
-            let word = self.tree.slice(part);
-            let named = || fields.known.iter().any(|field| field[1..].eq_ignore_ascii_case(word));
-            !self.tree.is_list(part) && (word.starts_with(':') || !bare && named())
-        };
         let rest = fields.parts.as_slice();
-        let count = rest.iter().position(ends).unwrap_or(rest.len());
+        let count = (0..rest.len()).find(|&at| self.starts_field(rest, at, field, fields.known));
+        let count = count.unwrap_or(rest.len());
         fields.parts.by_ref().take(count).collect()
+    }
+
+    /// Whether the part at `at`, after the keyword of `field`, is the keyword of another field, perhaps without its colon.
+    fn starts_field(
+        &self,
+        parts: &[NodeId],
+        at: usize,
+        field: Option<&str>,
+        known: &[&str],
+    ) -> bool {
+        let tree = self.tree;
+        let word = tree.slice(parts[at]);
+        if tree.is_list(parts[at]) || word.starts_with(':') {
+            return !tree.is_list(parts[at]);
+        }
+        // The value of `:agent` is no list: in `:agent ?a - agent` the last word is a type.
+        let named = field != Some(":agent")
+            && known.iter().any(|field| field[1..].eq_ignore_ascii_case(word));
+        // Words beside it make it a word of a sentence.
+        let alone = at == 0 || tree.is_list(parts[at - 1]);
+        let valued = parts
+            .get(at + 1)
+            .is_some_and(|&value| tree.is_list(value) || word.eq_ignore_ascii_case("agent"));
+        named && alone && valued
     }
 
     /// The field that a word starts, taken as the one that was probably meant.
@@ -151,7 +170,16 @@ impl<'a> Reader<'a, '_> {
         values: &[NodeId],
         formulas: &mut Vec<Formula<'a>>,
     ) {
+        let mut read = 0;
         for (index, &value) in values.iter().enumerate() {
+            if value.0 < read {
+                continue;
+            }
+            read = self.reach(value);
+            if index > 0 && !self.tree.is_list(value) {
+                self.stray("a field such as `:effect`", value);
+                continue;
+            }
             if index > 0 {
                 let span = self.opening(value);
                 self.diagnostics.push(several_formulas::several_formulas(field, span));
@@ -211,7 +239,14 @@ impl<'a> Reader<'a, '_> {
                 ":effect" => self.formulas(field, &values, &mut action.effects),
                 ":duration" => {
                     timed = true;
-                    self.formulas(field, &values, &mut action.durations);
+                    match values.as_slice() {
+                        &[value] if !self.tree.is_list(value) => {
+                            let (text, span) = (self.tree.slice(value), self.tree.span(value));
+                            let number = is_number(text).then_some(text);
+                            self.diagnostics.push(invalid_duration::not_a_constraint(number, span));
+                        }
+                        _ => self.formulas(field, &values, &mut action.durations),
+                    }
                 }
                 ":agent" => action.agent = self.agent(keyword, &values).or(action.agent),
                 ":comment" => {}

@@ -59,7 +59,11 @@ impl<'a> Reader<'a, '_> {
     ) -> Option<(Name<'a>, &'static str)> {
         let Some(head) = self.head(item) else {
             if !std::mem::replace(&mut self.lost, true) {
-                self.unexpected("a section in parentheses", item);
+                if self.tree.is_list(item) {
+                    self.unexpected("a section in parentheses", item);
+                } else {
+                    self.stray("a section in parentheses", item);
+                }
             }
             return None;
         };

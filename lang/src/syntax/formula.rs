@@ -1,11 +1,16 @@
 //! Conditions, effects and expressions.
 
+use std::ops::Range;
+
 use super::list::Names;
 use super::{Reader, is_number, lower};
 use crate::ast::{
-    Connective, Feature, Formula, Modality, Name, Node, NodeKind, Operator, Place, Quantifier, Time,
+    Application, Connective, Feature, Formula, Modality, Name, Node, NodeKind, Operator, Place,
+    Quantifier, Time, TypedList,
 };
-use crate::diagnostic::{unknown_predicate, unknown_time_specifier};
+use crate::diagnostic::{
+    misplaced_parenthesis, unexpected_item, unknown_predicate, unknown_time_specifier,
+};
 use crate::near::nearest;
 use crate::tree::{self, NodeId};
 
@@ -29,6 +34,8 @@ enum Step {
 /// A node whose operands are being read.
 struct Open {
     index: usize,
+    /// Its list.
+    list: NodeId,
     /// The node of the tree after its list.
     end: u32,
     operands: Operands,
@@ -48,7 +55,7 @@ impl<'a> Reader<'a, '_> {
     fn read(&mut self, root: NodeId, wanted: Operands) -> Formula<'a> {
         let mut formula = Formula::default();
         let mut open: Vec<Open> = Vec::new();
-        let end = self.tree.node(root).next;
+        let end = self.reach(root);
         let mut at = root.0;
         while at < end {
             close(&mut formula, &mut open, at);
@@ -60,7 +67,7 @@ impl<'a> Reader<'a, '_> {
                 tree::NodeKind::List | tree::NodeKind::OpenList => {
                     let index = formula.nodes.len();
                     if let Step::Into(first, operands) = self.node(id, operands, &mut formula) {
-                        open.push(Open { index, end: node.next, operands });
+                        open.push(Open { index, list: id, end: node.next, operands });
                         at = first;
                     }
                 }
@@ -68,8 +75,25 @@ impl<'a> Reader<'a, '_> {
                     self.push(NodeKind::Word(self.name(id)), id, &mut formula);
                 }
                 tree::NodeKind::Atom => {
-                    self.unexpected("a formula in parentheses", id);
-                    self.nothing(id, &mut formula);
+                    if let Some(list) = self.called(id) {
+                        let index = formula.nodes.len();
+                        let list_end = self.tree.node(list).next;
+                        at = list_end;
+                        if let Step::Into(first, operands) = self.call(id, list, &mut formula) {
+                            open.push(Open { index, list, end: list_end, operands });
+                            at = first;
+                        }
+                        continue;
+                    }
+                    self.stray("a formula in parentheses", id);
+                    // Where formulas stand beside it, it is too much; where none does, it stands for one.
+                    let beside = open.last().is_some_and(|open| {
+                        let mut parts = self.tree.children(open.list);
+                        parts.any(|part| self.tree.is_list(part))
+                    });
+                    if !beside {
+                        self.nothing(id, &mut formula);
+                    }
                 }
                 _ => {}
             }
@@ -159,13 +183,75 @@ impl<'a> Reader<'a, '_> {
         Some(Step::Into(after, Operands::Formulas))
     }
 
+    /// The node of the tree after a formula that starts at `root`.
+    pub(super) fn reach(&self, root: NodeId) -> u32 {
+        let atom = self.tree.node(root).kind == tree::NodeKind::Atom;
+        let last = self.called(root).filter(|_| atom).unwrap_or(root);
+        self.tree.node(last).next
+    }
+
+    /// The list that follows a word which should stand in it: `not (p)`, `p(?x)`.
+    fn called(&self, id: NodeId) -> Option<NodeId> {
+        let tree = self.tree;
+        let word = tree.slice(id);
+        let mut at = id.0 + 1;
+        let end = tree.nodes().len() as u32;
+        let negation = word.eq_ignore_ascii_case("not");
+        while negation && at < end && tree.node(NodeId(at)).kind == tree::NodeKind::Space {
+            at += 1;
+        }
+        let named = !word.starts_with(['?', ':', '-']) && !is_number(word);
+        (at < end && named && tree.is_list(NodeId(at))).then_some(NodeId(at))
+    }
+
+    /// Whether a comment stands right before a node.
+    fn after_comment(&self, id: NodeId) -> bool {
+        let before = &self.tree.nodes()[..id.0 as usize];
+        let last = before.iter().rev().find(|node| node.kind != tree::NodeKind::Space);
+        last.is_some_and(|node| node.kind == tree::NodeKind::Comment)
+    }
+
+    /// Reads `not (p)` as `(not (p))` and `p(?x)` as `(p ?x)`, after the report.
+    fn call(&mut self, word: NodeId, list: NodeId, formula: &mut Formula<'a>) -> Step {
+        let tree = self.tree;
+        let name = self.name(word);
+        let (before, after) = (tree.span(word), tree.span(list));
+        let index = formula.nodes.len();
+        let step = if name.is("not") {
+            self.diagnostics.push(misplaced_parenthesis::before_list(name.text, before, after));
+            self.push(NodeKind::Connective(Connective::Not), word, formula);
+            Step::Into(list.0, Operands::Formulas)
+        } else {
+            self.diagnostics.push(misplaced_parenthesis::call(name.text, before, after));
+            let arguments = self.arguments(list, &mut formula.terms);
+            self.push(NodeKind::Apply(Application { name, arguments }), word, formula);
+            Step::Over
+        };
+        formula.nodes[index].place = Place(before.to(after));
+        step
+    }
+
+    /// The words in a list as arguments.
+    fn arguments(&self, list: NodeId, terms: &mut Vec<Name<'a>>) -> Range<u32> {
+        let start = terms.len() as u32;
+        let words = self.tree.children(list).filter(|&word| !self.tree.is_list(word));
+        terms.extend(words.map(|word| self.name(word)));
+        start..terms.len() as u32
+    }
+
     /// Whether a list that starts like an assignment is one, and no predicate of that name.
     fn changes(&self, id: NodeId) -> bool {
         let tree = self.tree;
-        let mut operands = tree.children(id).skip(1);
-        let target = operands.next();
+        let operands: Vec<NodeId> = tree.children(id).skip(1).collect();
         let valued = |operand: NodeId| tree.is_list(operand) || is_number(tree.slice(operand));
-        target.is_some_and(|target| tree.is_list(target)) || operands.next().is_some_and(valued)
+        match operands.as_slice() {
+            [target, amount] if !tree.is_list(*target) && !valued(*amount) => {
+                !self.head(id).is_some_and(|head| self.declares(head))
+            }
+            [_, amount] if valued(*amount) => true,
+            [target, ..] => tree.is_list(*target),
+            [] => false,
+        }
     }
 
     /// What stands around formulas: time specifiers, preferences, modalities.
@@ -188,6 +274,23 @@ impl<'a> Reader<'a, '_> {
                     node.keyword = Place(both);
                 }
                 return Some(Step::Into(after, Operands::Formulas));
+            }
+            "atstart" | "at-start" | "atend" | "at-end" | "overall" | "over-all"
+                if !worded && operands.next().is_none() =>
+            {
+                let time = match word.as_bytes()[word.len() - 1] {
+                    b't' => Time::AtStart,
+                    b'd' => Time::AtEnd,
+                    _ => Time::OverAll,
+                };
+                let head = self.head(id)?;
+                self.diagnostics.push(unknown_time_specifier::in_one_word(
+                    head.text,
+                    head.span,
+                    time.words(),
+                ));
+                self.push(NodeKind::Timed(time), id, formula);
+                return Some(Step::Into(first.0, Operands::Formulas));
             }
             "preference" => {
                 let name = worded.then(|| self.name(first));
@@ -252,11 +355,33 @@ impl<'a> Reader<'a, '_> {
         formula: &mut Formula<'a>,
     ) -> Step {
         let tree = self.tree;
-        let Some(list) = tree.children(id).nth(1).filter(|&list| tree.is_list(list)) else {
-            self.unexpected(&format!("`({} (?x - TYPE) FORMULA)`", quantifier.word()), id);
+        let parts: Vec<NodeId> = tree.children(id).skip(1).collect();
+        let variables = parts.iter().take_while(|&&part| {
+            !tree.is_list(part) && self.called(part).is_none() && !self.after_comment(part)
+        });
+        let words = variables.count();
+        let keyword = tree.children(id).next().map_or(tree.span(id), |keyword| tree.span(keyword));
+        let word = quantifier.word();
+        if words > 0 && parts.len() > words {
+            // `(forall ?x - t FORMULA)`
+            let span = tree.span(parts[0]).to(tree.span(parts[words - 1]));
+            self.diagnostics.push(misplaced_parenthesis::variables(word, span));
+            let variables = self.typed_list(parts[..words].iter().copied(), Names::Variables);
+            self.push(NodeKind::Quantifier(quantifier, variables), id, formula);
+            return Step::Into(parts[words].0, Operands::Formulas);
+        }
+        let Some(&list) = parts.first().filter(|&&list| tree.is_list(list)) else {
+            self.unexpected(&format!("`({word} (?x - TYPE) FORMULA)`"), id);
             self.nothing(id, formula);
             return Step::Over;
         };
+        if parts.len() == 1 && self.head(list).is_some_and(|head| !head.is_variable()) {
+            // `(exists FORMULA)`
+            let expected = format!("a list of variables such as `(?x - TYPE)` after `{word}`");
+            self.diagnostics.push(unexpected_item::missing_item(&expected, keyword));
+            self.push(NodeKind::Quantifier(quantifier, TypedList::default()), id, formula);
+            return Step::Into(list.0, Operands::Formulas);
+        }
         let variables = self.typed_list(tree.children(list), Names::Variables);
         self.push(NodeKind::Quantifier(quantifier, variables), id, formula);
         Step::Into(tree.node(list).next, Operands::Formulas)
@@ -273,24 +398,39 @@ impl<'a> Reader<'a, '_> {
             self.push(NodeKind::Apply(application), id, formula);
             return Step::Over;
         }
+        let operands: Vec<NodeId> = self.tree.children(id).skip(1).collect();
+        if let &[list] = operands.as_slice()
+            && self.head(list).is_some_and(|first| first.is_variable())
+        {
+            // `(p(?x ?y))`: no function has the name of a variable.
+            let span = self.tree.span(list);
+            self.diagnostics.push(misplaced_parenthesis::around_arguments(head.text, span));
+            let arguments = self.arguments(list, &mut formula.terms);
+            self.push(NodeKind::Apply(Application { name: head, arguments }), id, formula);
+            return Step::Over;
+        }
         self.push(NodeKind::Nested(head), id, formula);
         let first = self.tree.children(id).nth(1).expect("it has an argument that is a list");
         Step::Into(first.0, Operands::Values)
     }
 
-    /// The connective that is probably meant by a word in front of formulas, after the report.
+    /// The word of the language that is probably meant in front of formulas or values, after the report.
     fn misspelt(&mut self, head: Name<'a>, id: NodeId) -> Option<&'static str> {
-        const WORDS: [&str; 7] = ["and", "or", "not", "imply", "when", "forall", "exists"];
+        const CONNECTIVES: [&str; 7] = ["and", "or", "not", "imply", "when", "forall", "exists"];
+        const CHANGES: [&str; 5] = ["increase", "decrease", "assign", "scale-up", "scale-down"];
         let tree = self.tree;
-        let mut operands = tree.children(id).skip(1);
-        let lists = operands.clone().next().is_some() && operands.all(|part| tree.is_list(part));
-        if !lists || head.text.len() < 3 || self.declares(head) {
+        let operands: Vec<NodeId> = tree.children(id).skip(1).collect();
+        if operands.is_empty() || head.text.len() < 3 {
             return None;
         }
-        let near = nearest(head.text, WORDS)?;
-        let meant = WORDS.into_iter().find(|&word| word == near)?;
-        self.diagnostics
-            .push(unknown_predicate::unknown_predicate(head.text, head.span, Some(meant)).safely());
+        let lists = operands.iter().all(|&part| tree.is_list(part));
+        let change = tree.is_list(operands[0]) && operands.len() == 2;
+        let known = CONNECTIVES.into_iter().filter(|_| lists);
+        let known: Vec<&str> = known.chain(CHANGES.into_iter().filter(|_| change)).collect();
+        let near = nearest(head.text, known.iter().copied()).filter(|_| !self.declares(head))?;
+        let meant = known.into_iter().find(|&word| word == near)?;
+        let unknown = unknown_predicate::unknown_predicate(head.text, head.span, Some(meant));
+        self.diagnostics.push(unknown.safely());
         Some(meant)
     }
 

@@ -129,7 +129,12 @@ impl<'a> Reader<'a, '_> {
     /// `(NAME ?x - t …)`
     pub(super) fn declaration(&mut self, item: NodeId, what: &str) -> Option<Head<'a>> {
         let Some(name) = self.head(item) else {
-            self.unexpected(&format!("{what} in parentheses"), item);
+            let expected = format!("{what} in parentheses");
+            if self.tree.is_list(item) {
+                self.unexpected(&expected, item);
+            } else {
+                self.stray(&expected, item);
+            }
             return None;
         };
         let parameters = self.typed_list(self.tree.children(item).skip(1), Names::Variables);

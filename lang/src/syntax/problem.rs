@@ -133,7 +133,7 @@ impl<'a> Reader<'a, '_> {
             match node.kind {
                 NodeKind::List | NodeKind::OpenList => {}
                 NodeKind::Atom => {
-                    self.unexpected("a fact in parentheses", id);
+                    self.stray("a fact in parentheses", id);
                     continue;
                 }
                 _ => continue,

@@ -2,11 +2,15 @@
 
 use std::fmt::Write;
 
+use lang::ast::Feature::{
+    self, Axioms, Constraints, DurativeActions, Hierarchies, Metrics, MultiAgent,
+    NumericConditions, NumericEffects, ObjectFluents, Preferences, Processes, TimedLiterals,
+};
 use lang::lexer::{self, TokenKind};
 use lang::model::{Domain, Problem};
 use lang::source::{SourceId, Sources};
 use lang::symbol::{Occurrences, Symbol};
-use lang::{ast, diagnostic::Diagnostics, lint, print, render};
+use lang::{diagnostic::Diagnostics, lint, print, render};
 
 /// What one domain and its problem give.
 struct Read {
@@ -25,6 +29,9 @@ fn read(domain: &str, problem: &str) -> Read {
     diagnostics.append(more);
     diagnostics.append(lint::domain(&domain));
     diagnostics.append(lint::problem(&domain, &problem));
+    for id in ids {
+        diagnostics.append(lint::text(&sources, id, &domain));
+    }
     let said = render::concise(&diagnostics, &sources);
     Read { domain, problem, said, sources, names: [first, second] }
 }
@@ -82,7 +89,7 @@ fn printed(sources: &Sources, id: SourceId, print: impl Fn(&Sources, SourceId) -
 }
 
 /// What a pair uses beyond what can be run.
-fn features(read: &Read) -> Vec<ast::Feature> {
+fn features(read: &Read) -> Vec<Feature> {
     let uses = read.domain.uses.iter().chain(&read.problem.uses);
     let mut features: Vec<_> = uses.map(|one| one.feature).collect();
     features.sort_unstable();
@@ -93,9 +100,6 @@ fn features(read: &Read) -> Vec<ast::Feature> {
 #[test]
 fn time() {
     let read = right(include_str!("time-domain.pddl"), include_str!("time-problem.pddl"));
-    use ast::Feature::{
-        DurativeActions, Metrics, NumericConditions, NumericEffects, TimedLiterals,
-    };
     let wanted = [NumericConditions, NumericEffects, DurativeActions, TimedLiterals, Metrics];
     assert_eq!(features(&read), wanted);
     let signatures: Vec<&str> =
@@ -106,7 +110,6 @@ fn time() {
 #[test]
 fn numbers_and_objects_as_values() {
     let read = right(include_str!("fluents-domain.pddl"), include_str!("fluents-problem.pddl"));
-    use ast::Feature::{Metrics, NumericConditions, NumericEffects, ObjectFluents};
     assert_eq!(features(&read), [NumericConditions, NumericEffects, ObjectFluents, Metrics]);
     let home = &read.domain.functions[1];
     assert_eq!(home.name.text, "home");
@@ -118,7 +121,6 @@ fn numbers_and_objects_as_values() {
 fn preferences_and_constraints() {
     let read =
         right(include_str!("preferences-domain.pddl"), include_str!("preferences-problem.pddl"));
-    use ast::Feature::{Constraints, Metrics, Preferences};
     assert_eq!(features(&read), [Preferences, Constraints, Metrics]);
     let named: Vec<&str> = read.domain.preferences.iter().map(|name| name.text.as_str()).collect();
     assert_eq!(named, ["no-pile", "dry-hands"]);
@@ -127,14 +129,12 @@ fn preferences_and_constraints() {
 #[test]
 fn processes_and_events() {
     let read = right(include_str!("processes-domain.pddl"), include_str!("processes-problem.pddl"));
-    use ast::Feature::{NumericConditions, NumericEffects, Processes};
     assert_eq!(features(&read), [NumericConditions, NumericEffects, Processes]);
 }
 
 #[test]
 fn agents_of_all_four_forms() {
     let read = right(include_str!("agents-domain.pddl"), include_str!("agents-problem.pddl"));
-    use ast::Feature::{Metrics, MultiAgent};
     assert_eq!(features(&read), [MultiAgent, Metrics]);
     let agents = read.domain.signatures.iter().map(|one| (one.agent, one.parameters.len()));
     let wanted = [(true, 2), (true, 2), (true, 2), (true, 2), (false, 1)];
@@ -144,7 +144,7 @@ fn agents_of_all_four_forms() {
 #[test]
 fn private_parts_and_concurrency_constraints() {
     let read = right(include_str!("private-domain.pddl"), include_str!("private-problem.pddl"));
-    assert_eq!(features(&read), [ast::Feature::MultiAgent]);
+    assert_eq!(features(&read), [MultiAgent]);
     let holds = read.domain.predicates[1].owner.as_ref().expect("it is private");
     assert_eq!(holds.position, Some(0));
     let objects: Vec<&str> =
@@ -155,18 +155,18 @@ fn private_parts_and_concurrency_constraints() {
 #[test]
 fn the_share_of_one_agent() {
     let read = right(include_str!("factored-domain.pddl"), include_str!("factored-problem.pddl"));
-    assert_eq!(features(&read), [ast::Feature::MultiAgent]);
+    assert_eq!(features(&read), [MultiAgent]);
     assert_eq!(read.problem.objects.len(), 3);
 }
 
 #[test]
 fn task_networks() {
     let read = right(include_str!("tasks-domain.hddl"), include_str!("tasks-problem.hddl"));
-    assert_eq!(features(&read), [ast::Feature::Hierarchies]);
+    assert_eq!(features(&read), [Hierarchies]);
 }
 
 #[test]
 fn the_first_pddl() {
     let read = right(include_str!("first-domain.pddl"), include_str!("first-problem.pddl"));
-    assert_eq!(features(&read), [ast::Feature::Axioms]);
+    assert_eq!(features(&read), [Axioms]);
 }
