@@ -201,7 +201,7 @@ impl Random {
         ((self.next() >> 32) % end as u64) as usize
     }
 
-    fn one_of<'t, T>(&mut self, list: &'t [T]) -> &'t T {
+    fn one_of<'t>(&mut self, list: &'t [Vec<u8>]) -> &'t Vec<u8> {
         &list[self.below(list.len())]
     }
 
