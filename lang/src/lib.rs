@@ -33,6 +33,7 @@ pub mod format;
 pub mod allow;
 pub mod mend;
 pub mod render;
+pub mod ide;
 
 pub use diagnostic::explain;
 pub use reader::{

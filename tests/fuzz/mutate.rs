@@ -128,7 +128,7 @@ fn changed(random: &mut Random, texts: &[Vec<u8>], words: &[Vec<u8>]) -> Vec<u8>
         match random.below(10) {
             0 => text.truncate(start),
             1 => drop(text.drain(start..end)),
-            2 => insert(&mut text, start, random.one_of(words)),
+            2 => insert(&mut text, start, &random.one_of(words)[..]),
             3 => {
                 let piece = text[start..end].to_vec();
                 insert(&mut text, end, &piece.repeat(1 + random.below(4)));
