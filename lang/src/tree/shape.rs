@@ -103,6 +103,12 @@ impl State {
         self.stack.len()
     }
 
+    /// Whether the value of a field is being read that is written in words: a list there would hide whatever follows.
+    pub(super) fn is_in_words(&self) -> bool {
+        let list = self.stack.last();
+        list.is_some_and(|list| list.kind == Kind::Fields && list.last == Last::Field(Role::Words))
+    }
+
     /// Reads one more.
     pub(super) fn step(&mut self, piece: Piece) {
         if let Some(indent) = piece.indent {
@@ -224,7 +230,9 @@ impl Frame {
                 _ => (Role::Formula, true),
             },
             Kind::Declarations => (Role::Declaration, false),
-            Kind::Names { .. } | Kind::Variables => (Role::Part, false),
+            Kind::Names { .. } => (Role::Part, false),
+            // Only `(either …)` stands there.
+            Kind::Variables => (Role::Part, last != Last::Dash),
             Kind::Facts | Kind::Loose => (Role::Formula, false),
             Kind::Formulas { most, .. } => (Role::Formula, given >= most),
             Kind::Derived if given == 0 => (Role::Declaration, false),
