@@ -63,6 +63,8 @@ struct Report<'d> {
     assigned: BTreeSet<FunctionId>,
     /// The functions that the initial state gives a value that the model does not hold.
     timed: BTreeSet<FunctionId>,
+    /// Whether it gives a value to a function that is unknown, and so perhaps to any.
+    strange: bool,
     /// How many more names may be compared with a misspelt one.
     comparisons: usize,
     /// The names that have been resolved, if somebody wants to know.
@@ -95,6 +97,7 @@ impl<'d> Report<'d> {
             read: BTreeMap::new(),
             assigned: BTreeSet::new(),
             timed: BTreeSet::new(),
+            strange: false,
             comparisons: COMPARISONS,
             occurrences,
             role: Role::default(),

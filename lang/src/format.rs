@@ -24,11 +24,8 @@ pub fn format(text: &str) -> Option<String> {
     if !tree.nodes().iter().all(sound) {
         return None;
     }
-    let line_ends = text.bytes().enumerate().filter(|&(_, byte)| byte == b'\n');
-    let line_ends = line_ends.map(|(at, _)| at as u32).collect();
     let mut layout = Layout {
         tree: &tree,
-        line_ends,
         out: String::with_capacity(text.len() + text.len() / 8),
         column: 0,
         indent: 0,
@@ -67,6 +64,12 @@ struct Frame {
     last: Option<NodeId>,
 }
 
+impl Frame {
+    fn new(next: u32, indent: usize, shape: Shape) -> Self {
+        Self { next, indent, shape, written: 0, last: None }
+    }
+}
+
 /// How something is set off from what stands before it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Gap {
@@ -76,10 +79,19 @@ enum Gap {
     Author,
 }
 
+/// How many lines end in a text: a carriage return alone ends one too, as it ends a comment.
+fn line_ends(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let ends = |at: usize| match bytes[at] {
+        b'\n' => true,
+        b'\r' => bytes.get(at + 1) != Some(&b'\n'),
+        _ => false,
+    };
+    (0..bytes.len()).filter(|&at| ends(at)).count()
+}
+
 struct Layout<'t, 'a> {
     tree: &'t Tree<'a>,
-    /// Where the lines of the input end.
-    line_ends: Vec<u32>,
     out: String,
     /// How much of the current line is written.
     column: usize,
@@ -100,9 +112,7 @@ impl Layout<'_, '_> {
             let (id, node) = (NodeId(at), nodes[at as usize]);
             at += 1;
             match node.kind {
-                NodeKind::Space => {
-                    self.ends += self.tree.slice(id).bytes().filter(|&byte| byte == b'\n').count();
-                }
+                NodeKind::Space => self.ends += line_ends(self.tree.slice(id)),
                 NodeKind::Comment => self.comment(id),
                 NodeKind::Atom => {
                     self.separate(id, self.tree.slice(id).chars().count());
@@ -132,42 +142,53 @@ impl Layout<'_, '_> {
         }
         self.write("(");
         let shape = self.shape(id);
-        self.open.push(Frame {
-            next: node.next,
-            indent: self.indent,
-            shape,
-            written: 0,
-            last: None,
-        });
+        self.open.push(Frame::new(node.next, self.indent, shape));
         id.0 + 1
     }
 
-    /// The list in one line, if the author wrote it in one line and it is short.
+    /// The list in one line, if the author wrote what it contains in one line and it is short.
     fn flat(&self, id: NodeId, node: Node) -> Option<String> {
-        let first = self.line_ends.partition_point(|&end| end < node.start);
-        let broken = self.line_ends.get(first).is_some_and(|&end| end < node.end);
-        if broken || self.shape(id) == Shape::Definition {
+        if self.shape(id) == Shape::Definition {
             return None;
         }
         let nodes = self.tree.nodes();
         let mut flat = String::new();
-        let mut open: Vec<u32> = Vec::new();
+        let mut open: Vec<(NodeId, Frame)> = Vec::new();
+        let mut ends = false;
         for at in id.0..node.next {
-            while open.pop_if(|next| *next == at).is_some() {
+            while open.pop_if(|(_, frame)| frame.next == at).is_some() {
                 flat.push(')');
+                ends = false;
             }
-            let one = nodes[at as usize];
-            if !matches!(one.kind, NodeKind::Atom | NodeKind::List) {
-                continue;
+            let (item, one) = (NodeId(at), nodes[at as usize]);
+            match one.kind {
+                NodeKind::Space => {
+                    ends |= line_ends(self.tree.slice(item)) > 0;
+                    continue;
+                }
+                NodeKind::Atom | NodeKind::List => {}
+                _ => return None,
             }
-            if !flat.is_empty() && !flat.ends_with('(') {
-                flat.push(' ');
+            let word = (one.kind == NodeKind::Atom).then_some(item);
+            if let Some((list, frame)) = open.last_mut() {
+                if frame.written > 0 {
+                    flat.push(' ');
+                    if ends {
+                        frame.shape = self.shape(*list);
+                        // A line end that would not be kept must not count, or the result would be laid out in another way.
+                        if self.gap(frame, item) != Gap::Space {
+                            return None;
+                        }
+                    }
+                }
+                (frame.written, frame.last) = (frame.written + 1, word);
             }
-            if one.kind == NodeKind::List {
-                flat.push('(');
-                open.push(one.next);
+            ends = false;
+            if word.is_some() {
+                flat.push_str(self.tree.slice(item));
             } else {
-                flat.push_str(self.tree.slice(NodeId(at)));
+                flat.push('(');
+                open.push((item, Frame::new(one.next, 0, Shape::Plain)));
             }
             if flat.len() > 4 * WIDTH {
                 return None;

@@ -98,15 +98,20 @@ pub fn check_characters(
                 continue;
             }
             seen.push(character);
+            // The quotation mark that closes says nothing that the one that opens has not.
+            seen.extend(QUOTES.iter().find(|pair| pair[0] == character).map(|pair| pair[1]));
             let start = token.start + offset as u32;
             let span = Span::new(source, start, start + character.len_utf8() as u32);
             diagnostics.push(invalid_character::invalid_character(character, span));
-            if seen.len() == LIMIT {
+            if seen.len() >= LIMIT {
                 return;
             }
         }
     }
 }
+
+/// Quotation marks that open, each with the one that closes.
+const QUOTES: [[char; 2]; 4] = [['“', '”'], ['‘', '’'], ['«', '»'], ['„', '“']];
 
 /// How many different characters are reported: beyond this the text is no PDDL at all.
 const LIMIT: usize = 20;

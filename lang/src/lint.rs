@@ -70,13 +70,14 @@ pub fn problem(domain: &Domain, problem: &Problem) -> Diagnostics {
     let impossible = condition::impossible(&problem.goal, &mut found);
     if domain.uses.is_empty() && problem.uses.is_empty() {
         named(&problem.goal_scope, "the goal", |named| named.formula(&problem.goal), &mut found);
+        let mut stuck = vec![false; domain.actions.len()];
         if already(domain, problem) {
             let span = problem.goal.nodes[problem.goal.root().index()].span;
             found.push(goal_already_true::goal_already_true(span));
         } else if !impossible {
-            reach::check(domain, problem, &mut found);
+            stuck = reach::check(domain, problem, &mut found);
         }
-        task::check(domain, problem, &mut found);
+        task::check(domain, problem, &stuck, &mut found);
     }
     found
 }

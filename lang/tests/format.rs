@@ -93,6 +93,22 @@ fn nothing_stays_nothing() {
 }
 
 #[test]
+fn a_carriage_return_alone_ends_a_line() {
+    assert_eq!(format("(a (b ; c\rd))\re"), "(a (b ; c\n  d))\ne\n");
+}
+
+#[test]
+fn a_line_end_that_is_not_kept_changes_nothing() {
+    let start = "(and-then-something-that-is-long (with-more-in-it ?and-more) (and-still-more) ";
+    for list in ["(p\n)", "(\np)", "(a -\nb)", "(a\n- b)", "(:action\nb)", "(:task a :x\n(b))"] {
+        let flat = list.replace("\n", " ").replace("( ", "(").replace(" )", ")");
+        let broken = format(&format!("{start}{list})"));
+        assert_eq!(broken, format(&format!("{start}{flat})")), "{list}");
+        assert_eq!(broken, format(&broken), "{list}");
+    }
+}
+
+#[test]
 fn deep_nesting_takes_no_stack() {
     let text = format!("{}{}", "(".repeat(50_000), ")".repeat(50_000));
     assert_eq!(tokens(&text).len(), tokens(&format(&text)).len());

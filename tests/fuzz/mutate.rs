@@ -1,6 +1,6 @@
 //! The kept texts go in; each is changed at random and held against the promises, and what breaks one comes out, made small.
 //!
-//! `cargo run --release -p suite --example mutate -- SECONDS [SEED]` works on stable Rust. It knows nothing of what a text reaches,
+//! `cargo run -p suite --example mutate -- SECONDS [SEED [TARGET ...]]` works on stable Rust. It knows nothing of what a text reaches,
 //! as libFuzzer does; it knows what PDDL is made of.
 
 mod promises;
@@ -25,23 +25,29 @@ const LONGEST: usize = 20_000;
 static LAST: Mutex<String> = Mutex::new(String::new());
 
 fn main() -> ExitCode {
-    let mut arguments = std::env::args().skip(1).map(|word| word.parse::<u64>());
-    let (Some(Ok(seconds)), Ok(seed)) = (arguments.next(), arguments.next().unwrap_or(Ok(1)))
-    else {
-        eprintln!("usage: mutate SECONDS [SEED]");
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let number = |at: usize| arguments.get(at).and_then(|word| word.parse().ok());
+    let wanted = arguments.get(2..).unwrap_or_default();
+    let known = |name: &String| promises::TARGETS.iter().any(|(target, _)| target == name);
+    let (Some(seconds), true) = (number(0), wanted.iter().all(known)) else {
+        eprintln!("usage: mutate SECONDS [SEED [TARGET ...]]");
         return ExitCode::from(2);
     };
+    let seed = number(1).unwrap_or(1).max(1);
     panic::set_hook(Box::new(|panic| {
         let mut last = LAST.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         *last = panic.to_string();
     }));
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let finds = root.join("../target/fuzz/finds");
+    let finds = root.with_file_name("target").join("fuzz/finds");
     let texts = texts(&root.join("fuzz/corpus"));
     let words = words(&root.join("fuzz/pddl.dict"));
     assert!(texts.len() > 20 && words.len() > 20, "there are texts and words to begin with");
     let mut found = 0;
     for (target, _) in promises::TARGETS {
+        if !wanted.is_empty() && !wanted.iter().any(|name| name == target) {
+            continue;
+        }
         found +=
             run(target, Duration::from_secs(seconds), &mut Random(seed), &texts, &words, &finds);
     }
@@ -201,7 +207,7 @@ impl Random {
         ((self.next() >> 32) % end as u64) as usize
     }
 
-    fn one_of<'t, T>(&mut self, list: &'t [T]) -> &'t T {
+    fn one_of<'t>(&mut self, list: &'t [Vec<u8>]) -> &'t Vec<u8> {
         &list[self.below(list.len())]
     }
 

@@ -98,8 +98,12 @@ fn tree(text: &str) {
         }
         let &(next, start, end) = lists.last().expect("every node but the last has one after it");
         assert!(node.next as usize > index && node.next <= next, "a node ends with its list");
-        assert!(start <= node.start && node.end <= end, "a node lies in its list");
-        assert!(node.start < node.end, "a node has a text");
+        assert!(
+            start <= node.start && node.start <= node.end && node.end <= end,
+            "a node lies in its list"
+        );
+        // Where a `(` and a `)` are missing, a blank without a text is left of their list.
+        assert!(node.start < node.end || node.kind == NodeKind::Space, "a node has a text");
         within(Span::new(id, node.start, node.end), &sources);
         if matches!(node.kind, NodeKind::List | NodeKind::OpenList) {
             lists.push((node.next, node.start, node.end));

@@ -5,7 +5,7 @@
 //! - A dropped or doubled parenthesis always counts.
 //!   Of a dropped `)` a reader cannot tell where in its list it stood:
 //!   right is every line from that of its `(` to that of the `)`.
-//!   Of parentheses without anything between them, `)))`, one can be dropped as well as the other, with the same text as result:
+//!   Of parentheses on one line with at most blanks between them, `)))`, one can be dropped as well as the other, with the same result:
 //!   right is what is right for any of them.
 //!   Of a dropped `(` and of a doubled parenthesis the line is that of the change.
 //! - A misspelt word has one letter too many, too few, changed, or two that changed places.
@@ -143,10 +143,12 @@ fn parenthesis(kind: Kind, text: &Text<'_>, random: &mut Random) -> Option<Mutat
     let (lines, verb) = match kind {
         Kind::DropClose => {
             broken.remove(at);
-            // The run of `)` without anything between them.
+            // The run of `)` with at most blanks between them.
             let touches = |&other: &usize| {
-                text.tokens[other].kind == TokenKind::Close
-                    && text.tokens[other].start as usize + index == at + other
+                let there = text.tokens[other].start as usize;
+                let between = &text.text[at.min(there)..at.max(there)];
+                between.bytes().all(|byte| matches!(byte, b')' | b' ' | b'\t'))
+                    && text.tokens[other].kind == TokenKind::Close
             };
             let before = (0..index).rev().take_while(touches);
             let after = (index..text.tokens.len()).take_while(touches);

@@ -58,6 +58,7 @@ pub(super) fn check<'a>(
         nodes: Vec::new(),
         open: Vec::new(),
         setting,
+        timed: 0,
         untimed: false,
         some_timed,
         bindings,
@@ -125,6 +126,8 @@ struct Condition<'c, 'w, 'd, 'a> {
     nodes: Vec<Node>,
     open: Vec<Frame<'a>>,
     setting: Setting,
+    /// How many of the open nodes are time specifiers.
+    timed: usize,
     /// Whether it has been said that a part has no time specifier.
     untimed: bool,
     /// Whether some part has one.
@@ -176,6 +179,7 @@ impl<'a> Condition<'_, '_, '_, 'a> {
             }
             Ast::Timed(time) => {
                 self.timed(*time, keyword);
+                self.timed += 1;
                 Some(Kind::Timed(*time))
             }
             Ast::Preference(name) => {
@@ -209,7 +213,7 @@ impl<'a> Condition<'_, '_, '_, 'a> {
 
     /// A time specifier, which has its place in durative actions; the end of a plan is one too.
     fn timed(&mut self, time: Time, keyword: Span) {
-        let inside = self.open.iter().any(|frame| matches!(frame.kind, Kind::Timed(_)));
+        let inside = self.timed > 0;
         let allowed = match self.setting {
             Setting::State => false,
             Setting::Durative => !inside,
@@ -242,8 +246,7 @@ impl<'a> Condition<'_, '_, '_, 'a> {
 
     /// Reports a part of the condition of a durative action that does not say when it holds.
     fn demand_time(&mut self, span: Span) {
-        let inside = self.open.iter().any(|frame| matches!(frame.kind, Kind::Timed(_)));
-        if self.setting != Setting::Durative || inside {
+        if self.setting != Setting::Durative || self.timed > 0 {
             return;
         }
         // Where no part says when it holds, that is one mistake.
@@ -353,6 +356,7 @@ impl<'a> Condition<'_, '_, '_, 'a> {
     /// Puts a node together from its operands.
     fn finish(&mut self, frame: Frame<'a>) -> NodeId {
         let Frame { kind, mut children, span, .. } = frame;
+        self.timed -= usize::from(matches!(kind, Kind::Timed(_)));
         let given = children.len();
         let (word, before, expected) = match &kind {
             Kind::Connective(connective) => {

@@ -77,6 +77,9 @@ pub fn domain(
     for function in std::mem::take(&mut report.assigned) {
         domain.functions[function.index()].assigned = true;
     }
+    // What has been said to be missing is not said again of a problem.
+    report.declare(report.missing);
+    domain.requirements = report.declared.requirements();
     (domain.preferences, domain.uses) = (report.preferences, report.uses);
     (domain.axioms, domain.actions) = (axioms, actions);
     domain

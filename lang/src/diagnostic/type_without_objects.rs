@@ -33,6 +33,25 @@ mod tests {
     use crate::diagnostic::fixture::lint;
 
     #[test]
+    fn one_reason_is_enough() {
+        lint(&[
+            "(define (domain d)
+  (:requirements :typing)
+  (:types cup lamp)
+  (:predicates (clean ?c - cup) (lit ?l - lamp) (power))
+;                                                ^^^^^ W0701: predicate `power` is never added by any action nor in `:init` of problem `p`
+  (:action wash :parameters (?c - cup) :effect (clean ?c))
+  (:action press :parameters (?l - lamp) :precondition (power) :effect (lit ?l)))
+",
+            "(define (problem p) (:domain d)
+  (:objects a - cup)
+  (:init)
+  (:goal (clean a)))
+",
+        ]);
+    }
+
+    #[test]
     fn objects_of_types_below_will_do() {
         lint(&[
             "(define (domain d)

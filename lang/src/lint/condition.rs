@@ -161,7 +161,7 @@ enum Shape<'m> {
     Atom(&'m Atom),
     Equal(Term, Term),
     Of(&'static str, Vec<u32>),
-    /// What binds variables has its own, so no two are the same.
+    /// A binder has variables of its own, so no two are the same.
     Alone(u32),
 }
 

@@ -19,8 +19,8 @@ struct Rule<'m> {
     adds: Vec<PredicateId>,
 }
 
-/// Warns of what the goal or an action needs and nothing can make true.
-pub(super) fn check(domain: &Domain, problem: &Problem, found: &mut Diagnostics) {
+/// Warns of what the goal or an action needs and nothing can make true; says of each action whether that explains why it is never applied.
+pub(super) fn check(domain: &Domain, problem: &Problem, found: &mut Diagnostics) -> Vec<bool> {
     let rules = rules(domain);
     let mut added = vec![false; domain.predicates.len()];
     let mut held = vec![false; domain.predicates.len()];
@@ -74,6 +74,8 @@ pub(super) fn check(domain: &Domain, problem: &Problem, found: &mut Diagnostics)
     } else {
         fixed(domain, problem, &added, &held, found);
     }
+    let actions = &lacking[..domain.actions.len()];
+    actions.iter().map(|&lacking| lacking > 0 && causes > 0).collect()
 }
 
 /// Warns of facts that the goal wants to become true or false, of predicates that no action adds or deletes.
@@ -145,6 +147,7 @@ fn consequence(wanted: bool, needing: &[&Rule<'_>]) -> String {
 /// How many actions a message names.
 const SHOWN: usize = 6;
 
+/// A rule for each action, then one for each axiom.
 fn rules(domain: &Domain) -> Vec<Rule<'_>> {
     let needs = |formula: &Formula| {
         let positive = conjuncts(formula).0.into_iter().filter(|literal| literal.positive);

@@ -15,10 +15,10 @@ const COMBINATIONS: u64 = 4;
 /// How many names a message lists.
 const SHOWN: usize = 6;
 
-/// What there is to say about the two together.
-pub(super) fn check(domain: &Domain, problem: &Problem, found: &mut Diagnostics) {
+/// What there is to say about the two together. Of the actions, some are `stuck` for other reasons, which have been reported.
+pub(super) fn check(domain: &Domain, problem: &Problem, stuck: &[bool], found: &mut Diagnostics) {
     let extents = extents(domain, problem);
-    empty(domain, problem, &extents, found);
+    empty(domain, problem, stuck, &extents, found);
     predicates(domain, problem, &extents, found);
     costs(domain, problem, found);
 }
@@ -54,9 +54,15 @@ fn extent(variable: &Variable, extents: &[u64]) -> Option<u64> {
 }
 
 /// Warns once of all types of which the problem has no objects though actions need some.
-fn empty(domain: &Domain, problem: &Problem, extents: &[u64], found: &mut Diagnostics) {
+fn empty(
+    domain: &Domain,
+    problem: &Problem,
+    stuck: &[bool],
+    extents: &[u64],
+    found: &mut Diagnostics,
+) {
     let (mut types, mut actions): (Vec<TypeId>, Vec<&str>) = (Vec::new(), Vec::new());
-    for action in &domain.actions {
+    for (action, _) in domain.actions.iter().zip(stuck).filter(|(_, stuck)| !**stuck) {
         for parameter in &action.scope.variables[..action.scope.parameters as usize] {
             if extent(parameter, extents) == Some(0) {
                 types.push(parameter.types[0]);

@@ -34,8 +34,8 @@ enum Step {
 /// A node whose operands are being read.
 struct Open {
     index: usize,
-    /// Its list.
-    list: NodeId,
+    /// Whether formulas stand among its operands.
+    some: bool,
     /// The node of the tree after its list.
     end: u32,
     operands: Operands,
@@ -67,7 +67,8 @@ impl<'a> Reader<'a, '_> {
                 tree::NodeKind::List | tree::NodeKind::OpenList => {
                     let index = formula.nodes.len();
                     if let Step::Into(first, operands) = self.node(id, operands, &mut formula) {
-                        open.push(Open { index, list: id, end: node.next, operands });
+                        let some = self.tree.children(id).any(|part| self.tree.is_list(part));
+                        open.push(Open { index, some, end: node.next, operands });
                         at = first;
                     }
                 }
@@ -80,18 +81,14 @@ impl<'a> Reader<'a, '_> {
                         let list_end = self.tree.node(list).next;
                         at = list_end;
                         if let Step::Into(first, operands) = self.call(id, list, &mut formula) {
-                            open.push(Open { index, list, end: list_end, operands });
+                            open.push(Open { index, some: true, end: list_end, operands });
                             at = first;
                         }
                         continue;
                     }
                     self.stray("a formula in parentheses", id);
                     // Where formulas stand beside it, it is too much; where none does, it stands for one.
-                    let beside = open.last().is_some_and(|open| {
-                        let mut parts = self.tree.children(open.list);
-                        parts.any(|part| self.tree.is_list(part))
-                    });
-                    if !beside {
+                    if !open.last().is_some_and(|open| open.some) {
                         self.nothing(id, &mut formula);
                     }
                 }

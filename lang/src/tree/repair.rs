@@ -49,8 +49,11 @@ const NEAR: usize = 150;
 /// How deep a section may be nested that is searched.
 const DEEP: usize = 400;
 
+/// What it costs to leave out a parenthesis at the start of a line, measured in lines that are indented oddly.
+const DELIBERATE: u32 = 3;
+
 /// How many steps the repairs of one text may take, so that a text full of mistakes is read fast too.
-pub(super) const STEPS: usize = 12_000_000;
+pub(super) const STEPS: usize = 6_000_000;
 
 /// Repairs the section from `section.start` to the token `end`, where `depth` lists should be open.
 pub(super) fn repair(
@@ -63,6 +66,7 @@ pub(super) fn repair(
 ) -> Repair {
     let mut search = Search {
         pieces: pieces(text, tokens, section.start, end),
+        lines: Vec::new(),
         base: section.depth,
         depth: depth as usize,
         steps,
@@ -87,7 +91,14 @@ pub(super) fn repair(
 fn pieces(text: &str, tokens: &[Token], start: u32, end: u32) -> Vec<Piece> {
     let mut pieces = Vec::new();
     let mut starts_line = start == 0;
+    let mut wrapped = start;
     for index in start..end {
+        if starts_line && index >= wrapped {
+            wrapped = comment_end(text, tokens, index, end);
+        }
+        if index < wrapped {
+            continue;
+        }
         let token = tokens[index as usize];
         let slice = &text[token.start as usize..token.end as usize];
         let kind = match token.kind {
@@ -105,6 +116,25 @@ fn pieces(text: &str, tokens: &[Token], start: u32, end: u32) -> Vec<Piece> {
         pieces.push(Piece { kind, token: index, indent: indent.map(|indent| indent as u32) });
     }
     pieces
+}
+
+/// The token after the words that start at `index`, if they have a line of their own below a comment: that comment was wrapped, and they belong to it.
+fn comment_end(text: &str, tokens: &[Token], index: u32, end: u32) -> u32 {
+    let breaks = |token: &Token| {
+        token.kind == TokenKind::Space
+            && text[token.start as usize..token.end as usize].contains(['\n', '\r'])
+    };
+    let (before, after) = tokens[..end as usize].split_at(index as usize);
+    let below = matches!(before, [.., comment, blank] if comment.kind == TokenKind::Comment && breaks(blank));
+    let words = after
+        .iter()
+        .take_while(|token| {
+            !breaks(token) && matches!(token.kind, TokenKind::Atom | TokenKind::Space)
+        })
+        .count();
+    let alone = after.get(words).is_none_or(breaks);
+    let keyword = after.first().is_some_and(|token| text[token.start as usize..].starts_with(':'));
+    if below && alone && words > 0 && !keyword { index + words as u32 } else { index }
 }
 
 /// A parenthesis that is tried.
@@ -127,6 +157,8 @@ struct First {
 
 struct Search<'s> {
     pieces: Vec<Piece>,
+    /// The number of the line on which each piece stands.
+    lines: Vec<u32>,
     base: u32,
     depth: usize,
     steps: &'s mut usize,
@@ -158,7 +190,10 @@ impl Search<'_> {
         Some((first, state.finish(self.depth)))
     }
 
-    /// The change with which the cost is least, if some change helps. Of equal ones the last in the text is taken.
+    /// The change with which the cost is least, if some change helps.
+    ///
+    /// Of equal ones the last in the text is taken, but a `)` is added on the first line where it can be:
+    /// the lists that end there may be those that were left open, and the ones that end below them need not.
     fn best(&mut self, first: &First, now: Cost) -> Option<(Change, usize)> {
         let end = self.pieces.len();
         let last = first.impossible.min(end);
@@ -171,6 +206,11 @@ impl Search<'_> {
             places.dedup();
             places
         };
+        self.lines.clear();
+        self.lines.extend(self.pieces.iter().scan(0, |line, piece| {
+            *line += u32::from(piece.indent.is_some());
+            Some(*line)
+        }));
         let mut states = Vec::with_capacity(places.len());
         let mut state = State::new(self.base);
         let mut read = 0;
@@ -179,15 +219,21 @@ impl Search<'_> {
             read = place;
             states.push(state.clone());
         }
-        let mut best = (Cost { impossible: now.impossible, odd: 0 }, None);
+        let mut least = Cost { impossible: now.impossible - 1, odd: u32::MAX };
+        let mut best: Option<(Change, usize)> = None;
         for (&place, state) in places.iter().zip(&states).rev() {
             for change in self.changes(place) {
-                if let Some(cost) = self.cost(state, change, place, best.0) {
-                    best = (cost, Some((change, place)));
+                let Some(cost) = self.cost(state, change, place, least) else { continue };
+                let earlier = |&(other, at): &(Change, usize)| {
+                    let is_close = other == Change::Close && change == Change::Close;
+                    is_close && self.lines[place - 1] < self.lines[at - 1]
+                };
+                if cost < least || best.as_ref().is_none_or(earlier) {
+                    (least, best) = (cost, Some((change, place)));
                 }
             }
         }
-        best.1
+        best
     }
 
     /// What can be tried at a place, the likeliest first.
@@ -197,19 +243,32 @@ impl Search<'_> {
         let open = (here == Some(PieceKind::Open)).then_some(Change::Drop);
         let close = (here == Some(PieceKind::Close)).then_some(Change::Drop);
         let inserts = before.is_some_and(|before| before != PieceKind::Open);
-        let starts = matches!(here, Some(PieceKind::Word(_) | PieceKind::Close));
         let insert = inserts.then_some(Change::Close);
-        let start = (starts && before != Some(PieceKind::Open)).then_some(Change::Open);
+        let starts = match here {
+            Some(PieceKind::Word(_)) => before != Some(PieceKind::Open),
+            // The value of a field may be empty.
+            Some(PieceKind::Close) => {
+                matches!(before, Some(PieceKind::Word(Word::Keyword(..))))
+            }
+            _ => false,
+        };
+        let start = starts.then_some(Change::Open);
         [insert, close, start, open].into_iter().flatten()
     }
 
-    /// The cost with a change, if it is less than `limit`.
+    /// The cost with a change, if it is not more than `limit`.
     fn cost(&mut self, state: &State, change: Change, place: usize, limit: Cost) -> Option<Cost> {
+        if change == Change::Open && state.is_in_words() {
+            return None;
+        }
         let mut state = state.clone();
         let (changed, rest) = self.changed(change, place);
         changed.into_iter().flatten().for_each(|piece| state.step(piece));
+        // What stands at the start of a line was put there on purpose.
+        let starts = change == Change::Drop && self.pieces[place].indent.is_some();
+        state.cost.odd += DELIBERATE * u32::from(starts);
         for (read, &piece) in self.pieces.iter().skip(rest).enumerate() {
-            if state.cost >= limit {
+            if state.cost > limit {
                 *self.steps = self.steps.saturating_sub(read);
                 return None;
             }
@@ -217,7 +276,7 @@ impl Search<'_> {
         }
         *self.steps = self.steps.saturating_sub(self.pieces.len() - place);
         let cost = state.finish(self.depth);
-        (cost < limit).then_some(cost)
+        (cost <= limit).then_some(cost)
     }
 
     /// What stands at a place after a change, and the piece with which the text goes on.

@@ -46,6 +46,8 @@ enum Last {
     Nothing,
     Word,
     Dash,
+    /// What follows a dash.
+    Type,
     List,
     /// The keyword of a field, whose value is to follow.
     Field(Role),
@@ -101,6 +103,12 @@ impl State {
         self.stack.len()
     }
 
+    /// Whether the value of a field is being read that is written in words: a list there would hide whatever follows.
+    pub(super) fn is_in_words(&self) -> bool {
+        let list = self.stack.last();
+        list.is_some_and(|list| list.kind == Kind::Fields && list.last == Last::Field(Role::Words))
+    }
+
     /// Reads one more.
     pub(super) fn step(&mut self, piece: Piece) {
         if let Some(indent) = piece.indent {
@@ -128,17 +136,21 @@ impl State {
         let Some(list) = self.stack.last_mut().filter(|list| list.line < self.line) else {
             return;
         };
-        let definition = list.kind == Kind::Definition;
         if closes {
-            // It stands below the start of its list, or below what is in it.
-            let aligned = indent == list.indent || Some(indent) == list.inside;
-            self.cost.odd += u32::from(!aligned && !definition);
+            // It stands below the start of its list, or else below what is in it.
+            let below = Some(indent) == list.inside;
+            self.cost.odd += u32::from(indent != list.indent) * if below { 1 } else { 2 };
             self.cost.odd += 2 * u32::from(indent < list.indent);
+            // What fits on a line needs none of its own for its end.
+            self.cost.odd += 2 * u32::from(list.inside.is_none());
             return;
         }
         let sibling = list.inside.replace(indent);
-        self.cost.odd += u32::from(sibling.is_some_and(|sibling| sibling != indent));
-        if !definition {
+        if sibling == Some(indent) {
+            return;
+        }
+        self.cost.odd += u32::from(sibling.is_some());
+        if list.kind != Kind::Definition {
             self.cost.odd += u32::from(indent <= list.indent) + u32::from(indent < list.indent);
         }
     }
@@ -218,7 +230,9 @@ impl Frame {
                 _ => (Role::Formula, true),
             },
             Kind::Declarations => (Role::Declaration, false),
-            Kind::Names { .. } | Kind::Variables => (Role::Part, false),
+            Kind::Names { .. } => (Role::Part, false),
+            // Only `(either …)` stands there.
+            Kind::Variables => (Role::Part, last != Last::Dash),
             Kind::Facts | Kind::Loose => (Role::Formula, false),
             Kind::Formulas { most, .. } => (Role::Formula, given >= most),
             Kind::Derived if given == 0 => (Role::Declaration, false),
@@ -241,10 +255,12 @@ impl Frame {
         }
         let given = self.given;
         self.given += 1;
-        let last = std::mem::replace(
-            &mut self.last,
-            if word == Word::Dash { Last::Dash } else { Last::Word },
-        );
+        let now = match (word, self.last) {
+            (Word::Dash, _) => Last::Dash,
+            (_, Last::Dash) => Last::Type,
+            _ => Last::Word,
+        };
+        let last = std::mem::replace(&mut self.last, now);
         let leads = matches!(word, Word::Connective(_) | Word::Either | Word::Define);
         match self.kind {
             Kind::Fields => match (word, last) {
@@ -268,9 +284,10 @@ impl Frame {
             },
             Kind::Variables => match word {
                 Word::Variable => last == Last::Dash,
-                Word::Dash => matches!(last, Last::Dash | Last::Nothing),
+                Word::Dash => last != Last::Word,
                 _ => last != Last::Dash || leads,
             },
+            Kind::Names { .. } if word == Word::Dash => last != Last::Word,
             Kind::Names { .. } | Kind::Words => leads,
             Kind::At => {
                 let timed = given == 0 && matches!(word, Word::Time | Word::Number);
@@ -297,7 +314,7 @@ impl Frame {
         let (kind, odd) = match (role, word) {
             (Role::Top, Word::Define) => (Kind::Definition, false),
             (Role::Title, _) => (Kind::Title, word != Word::Title),
-            (Role::Section, Word::Keyword(kind, _)) => (kind, false),
+            (Role::Section, Word::Keyword(kind, _)) => (kind, kind == Kind::Free),
             (Role::Section, _) => (Kind::Free, true),
             (Role::Declaration | Role::Part, Word::Keyword(..)) => (Kind::Free, false),
             (Role::Declaration, _) => (Kind::Variables, !name),
