@@ -279,12 +279,11 @@ impl Workspace {
     pub fn target(&self, id: SourceId, symbol: Symbol) -> Option<Target> {
         let Symbol::Known(namespace, number) = symbol else { return None };
         let home = match namespace {
-            Namespace::Variable | Namespace::Subtask | Namespace::Problem => id,
             Namespace::Object if number < self.domain(id).constants.len() as u32 => {
                 self.home(id)?
             }
             Namespace::Object if self.is_plan(id) => self.partner(id)?,
-            Namespace::Object => id,
+            Namespace::Variable | Namespace::Subtask | Namespace::Problem | Namespace::Object => id,
             Namespace::Preference if self.declares(id, symbol) => id,
             _ => self.home(id)?,
         };

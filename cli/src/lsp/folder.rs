@@ -369,7 +369,8 @@ pub fn is_plan(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let numbered = name.trim_end_matches(|letter: char| letter.is_ascii_digit());
     let bare = numbered.strip_suffix('.').unwrap_or(numbered);
-    name.starts_with("sas_plan") || bare.ends_with(".plan") || name.ends_with(".plan")
+    let ends = |name: &str| Path::new(name).extension().is_some_and(|ending| ending == "plan");
+    name.starts_with("sas_plan") || ends(bare) || ends(&name)
 }
 
 #[cfg(test)]

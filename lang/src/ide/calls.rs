@@ -33,8 +33,8 @@ pub struct Call {
 
 /// What the word at `offset` stands for.
 pub fn caller(workspace: &Workspace, id: SourceId, offset: u32) -> Option<Caller> {
-    match workspace.at(id, offset) {
-        Some(at) => match at.symbol.namespace() {
+    if let Some(at) = workspace.at(id, offset) {
+        match at.symbol.namespace() {
             Namespace::Predicate | Namespace::Function => fluent(workspace, id, at.symbol),
             Namespace::Action => {
                 let target = workspace.target(id, at.symbol)?;
@@ -44,14 +44,13 @@ pub fn caller(workspace: &Workspace, id: SourceId, offset: u32) -> Option<Caller
                 around(&sections, declared.start).map(|section| doing(&tree, section))
             }
             _ => None,
-        },
-        None => {
-            let tree = workspace.tree(id);
-            let sections = sections(&tree);
-            let section = around(&sections, offset).filter(|section| section.is(&[":derived"]))?;
-            let rule = doing(&tree, section);
-            (rule.place.start <= offset && offset <= rule.place.end).then_some(rule)
         }
+    } else {
+        let tree = workspace.tree(id);
+        let sections = sections(&tree);
+        let section = around(&sections, offset).filter(|section| section.is(&[":derived"]))?;
+        let rule = doing(&tree, section);
+        (rule.place.start <= offset && offset <= rule.place.end).then_some(rule)
     }
 }
 

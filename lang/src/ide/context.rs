@@ -155,20 +155,16 @@ impl<'w> Context<'w> {
             ":types" | ":constants" | ":objects" => Part::Typed,
             ":predicates" | ":functions" => Part::Head,
             ":init" => Part::Entry,
-            ":goal" => Part::Condition,
             ":constraints" => Part::Constraint,
             ":metric" if written >= 2 => Part::Number,
             ":derived" if written == 1 => Part::Head,
-            ":derived" => Part::Condition,
+            ":goal" | ":derived" => Part::Condition,
             _ => match self.field().as_str() {
                 ":parameters" | ":vars" | ":agent" => Part::Typed,
-                ":precondition" => Part::Condition,
                 ":condition" if timed => Part::TimedCondition,
-                ":condition" => Part::Condition,
+                ":precondition" | ":condition" | ":constraints" | ":duration" => Part::Condition,
                 ":effect" if timed => Part::TimedEffect,
                 ":effect" | ":observe" => Part::Effect,
-                ":constraints" => Part::Condition,
-                ":duration" => Part::Condition,
                 ":task" | ":tasks" | ":subtasks" | ":ordered-tasks" | ":ordered-subtasks" => {
                     Part::Task
                 }
@@ -207,7 +203,6 @@ impl<'w> Context<'w> {
                 Condition | Part::TimedCondition | Constraint | Effect | Part::TimedEffect,
                 "forall" | "exists",
             ) if first => Part::Typed,
-            (Part::TimedCondition, "at" | "over") => Condition,
             (Part::TimedEffect, "at") => Effect,
             (Condition, "=") => Side,
             (Condition, ">" | "<" | ">=" | "<=") | (Number, "+" | "-" | "*" | "/") => Number,
@@ -218,7 +213,8 @@ impl<'w> Context<'w> {
                     Part::Unknown
                 }
             }
-            (
+            (Part::TimedCondition, "at" | "over")
+            | (
                 Constraint,
                 "always" | "sometime" | "at-most-once" | "at" | "within" | "sometime-after"
                 | "sometime-before" | "always-within" | "hold-after" | "hold-during",
@@ -381,5 +377,5 @@ fn open<'t>(text: &'t str, tokens: impl Iterator<Item = Token>) -> Vec<Level<'t>
 
 fn is_section(word: &str) -> bool {
     let words = glossary::DOMAIN.iter().chain(&glossary::PROBLEM);
-    word.starts_with(':') && words.into_iter().any(|one| one.word.eq_ignore_ascii_case(word))
+    word.starts_with(':') && words.into_iter().any(|one| one.text.eq_ignore_ascii_case(word))
 }
