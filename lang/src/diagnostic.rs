@@ -50,6 +50,11 @@ pub mod variable_in_init;
 pub mod goal_unreachable;
 pub mod goal_already_true;
 pub mod agent_without_multi_agent;
+pub mod unknown_annotation;
+pub mod unbalanced_annotation;
+pub mod misplaced_annotation;
+pub mod loose_annotation;
+pub mod malformed_annotation;
 pub mod plan_syntax;
 pub mod plan_unknown_action;
 pub mod plan_wrong_arity;
@@ -110,6 +115,11 @@ pub const RULES: &[Rule] = &[
     goal_unreachable::RULE,
     goal_already_true::RULE,
     agent_without_multi_agent::RULE,
+    unknown_annotation::RULE,
+    unbalanced_annotation::RULE,
+    misplaced_annotation::RULE,
+    loose_annotation::RULE,
+    malformed_annotation::RULE,
     plan_syntax::RULE,
     plan_unknown_action::RULE,
     plan_wrong_arity::RULE,

@@ -17,6 +17,7 @@ pub mod source;
 pub mod diagnostic;
 pub mod lexer;
 pub mod tree;
+pub mod annotation;
 pub mod ast;
 pub mod syntax;
 mod near;
@@ -34,6 +35,7 @@ pub mod allow;
 pub mod mend;
 pub mod render;
 
+pub use annotation::annotations;
 pub use diagnostic::explain;
 pub use reader::{
     Kind, detect, index_domain, index_problem, parse_domain, parse_problem, read_domain,
