@@ -17,6 +17,7 @@ pub mod source;
 pub mod diagnostic;
 pub mod lexer;
 pub mod tree;
+pub mod annotation;
 pub mod ast;
 pub mod syntax;
 mod near;
@@ -35,6 +36,7 @@ pub mod mend;
 pub mod render;
 pub mod ide;
 
+pub use annotation::annotations;
 pub use diagnostic::explain;
 pub use reader::{
     Kind, detect, index_domain, index_problem, parse_domain, parse_problem, read_domain,
