@@ -22,6 +22,8 @@ pub struct Client {
     pub encoding: Encoding,
     /// Whether edits may name the versions of documents.
     pub versions: bool,
+    /// Whether it tells of files that change if it is asked to.
+    pub watches: bool,
     /// Whether it asks for diagnostics instead of being told.
     pub pulls: bool,
     /// Whether completions may have places to fill in.
@@ -41,6 +43,7 @@ impl Client {
         let workspace = can.workspace.as_ref();
         let text = can.text_document.as_ref();
         let edits = workspace.and_then(|workspace| workspace.workspace_edit.as_ref());
+        let watching = workspace.and_then(|workspace| workspace.did_change_watched_files.as_ref());
         let completion = text.and_then(|text| text.completion.as_ref());
         let item = completion.and_then(|completion| completion.completion_item.as_ref());
         let symbol = text.and_then(|text| text.document_symbol.as_ref());
@@ -48,6 +51,7 @@ impl Client {
         Self {
             encoding: Encoding::negotiate(encodings.unwrap_or_default()),
             versions: edits.and_then(|edits| edits.document_changes).unwrap_or(false),
+            watches: watching.and_then(|watching| watching.dynamic_registration).unwrap_or(false),
             pulls: option("diagnostics") == Some(Value::from("pull")),
             snippets: item.and_then(|item| item.snippet_support).unwrap_or(false),
             nested_symbols: symbol

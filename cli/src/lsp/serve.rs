@@ -89,7 +89,7 @@ impl Server {
                 let done = fault::contain(STACK, || self.notification(notification));
                 self.complain(done);
             }
-            // The server asks for nothing.
+            // The server asks only to be told of changes, and whether it is makes no difference here.
             Message::Response(_) => {}
         }
     }
@@ -157,6 +157,7 @@ impl Server {
         }
         let Notification { method, params } = notification;
         match method.as_str() {
+            "initialized" => self.watch(),
             "textDocument/didOpen" => {
                 if let Some(DidOpenTextDocumentParams { text_document: one }) = read(params) {
                     self.folder.open(one.uri, one.version, one.text);
@@ -216,6 +217,25 @@ impl Server {
             };
             self.folder.change(id, version, range, text);
         }
+    }
+
+    /// Asks to be told of files that change outside the editor.
+    fn watch(&mut self) {
+        if !self.client.watches {
+            return;
+        }
+        let watchers: Vec<Value> = ["**/*.{pddl,hddl,plan}", "**/sas_plan*"]
+            .iter()
+            .map(|pattern| json!({ "globPattern": pattern }))
+            .collect();
+        let registration = json!({
+            "id": "files",
+            "method": "workspace/didChangeWatchedFiles",
+            "registerOptions": { "watchers": watchers },
+        });
+        let parameters = json!({ "registrations": [registration] });
+        let id = "watch".to_owned().into();
+        self.send(Request::new(id, "client/registerCapability".to_owned(), parameters));
     }
 
     /// Whether there may be something new to say.

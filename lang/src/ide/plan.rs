@@ -98,3 +98,43 @@ fn object(tree: &Tree<'_>, word: NodeId, problem: &Problem) -> Symbol {
         Symbol::Known(Namespace::Object, at as u32)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::ide::fixture::{DOMAIN, PROBLEM, workspace};
+    use crate::source::SourceId;
+
+    /// Each message about a plan, with what is marked.
+    #[track_caller]
+    fn said(domain: &str, plan: &str) -> Vec<String> {
+        let (workspace, ..) = workspace(&[domain, PROBLEM, plan]);
+        let found = workspace.analysis(SourceId(3)).diagnostics.list.iter();
+        found
+            .map(|one| {
+                assert_eq!(one.primary.span.source, SourceId(3), "{one:?}");
+                format!("{} {}", one.code, workspace.sources().text(one.primary.span))
+            })
+            .collect()
+    }
+
+    #[test]
+    fn valid_plans_are_silent() {
+        assert_eq!(said(DOMAIN, "; a plan\n(move mug shelf sink)\n(wash mug)\n"), [""; 0]);
+    }
+
+    #[test]
+    fn the_step_that_fails_is_marked() {
+        assert_eq!(said(DOMAIN, "(wash mug)\n"), ["E0720 (wash mug)"]);
+        assert_eq!(said(DOMAIN, "(move mug shelf sink)\n"), ["E0721 (move mug shelf sink)"]);
+        assert_eq!(said(DOMAIN, ""), ["E0721 "]);
+        assert_eq!(said(DOMAIN, "(wash jug)\n").len(), 1);
+    }
+
+    #[test]
+    fn nothing_is_said_on_files_with_mistakes() {
+        assert_eq!(
+            said(&DOMAIN.replace("(clean ?d) (inc", "(claen ?d) (inc"), "(wash mug)\n"),
+            [""; 0]
+        );
+    }
+}
