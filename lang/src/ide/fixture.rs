@@ -33,6 +33,24 @@ pub(super) fn workspace(texts: &[&str]) -> (Workspace, SourceId, u32) {
     (workspace, id, offset)
 }
 
+/// Each text after edits.
+pub(super) fn edited(
+    workspace: &Workspace,
+    edits: &[(crate::source::Span, String)],
+) -> Vec<String> {
+    let mut sorted = edits.to_vec();
+    sorted.sort_by_key(|(span, _)| *span);
+    let ids = workspace.sources().ids().skip(1);
+    ids.map(|id| {
+        let mut text = workspace.text(id).to_owned();
+        for (span, new) in sorted.iter().rev().filter(|(span, _)| span.source == id) {
+            text.replace_range(span.start as usize..span.end as usize, new);
+        }
+        text
+    })
+    .collect()
+}
+
 /// A domain with something of everything, and a problem of it.
 pub(super) const DOMAIN: &str = "(define (domain kitchen)
   (:requirements :typing :action-costs)
