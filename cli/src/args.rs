@@ -57,6 +57,8 @@ pub enum Verb {
     Bench(Bench),
     /// Explain a diagnostic code.
     Explain(Explain),
+    /// Serve an editor: diagnostics, completion, renaming and more, as PDDL is typed.
+    Lsp(Lsp),
     /// Print a completion script for a shell.
     Completions(Completions),
 }
@@ -264,6 +266,24 @@ pub struct Explain {
     /// The code or the name of a diagnostic.
     #[arg(value_name = "CODE")]
     pub code: Option<String>,
+}
+
+/// `caveat lsp`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  caveat lsp
+      what an editor starts; it speaks the language server protocol on its standard streams
+  vim.lsp.start_client { cmd = { 'caveat', 'lsp' }, root_dir = vim.fn.getcwd() }
+      in neovim; docs/editors.md has the configuration of others
+  (add-to-list 'eglot-server-programs '(pddl-mode \"caveat\" \"lsp\"))
+      in Emacs
+
+Exit codes: 0 ended as the editor asked, 1 ended without being asked, 2 the editor does not speak the protocol.")]
+pub struct Lsp {
+    /// Use the standard streams, which is the only way; editors pass this.
+    #[arg(long)]
+    pub stdio: bool,
 }
 
 /// `caveat completions`.

@@ -118,6 +118,17 @@ pub fn is_pddl(path: &Path) -> bool {
         .is_some_and(|end| end.eq_ignore_ascii_case("pddl") || end.eq_ignore_ascii_case("hddl"))
 }
 
+/// The other files of PDDL and HDDL in the folder of `path`, in the order of their names.
+pub fn beside(path: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder(path)).into_iter().flatten().flatten();
+    let mut beside: Vec<PathBuf> = entries
+        .map(|entry| path.with_file_name(entry.file_name()))
+        .filter(|file| file != path && is_pddl(file))
+        .collect();
+    beside.sort();
+    beside
+}
+
 /// The folder that a file lies in.
 pub fn folder(path: &Path) -> &Path {
     match path.parent() {

@@ -70,7 +70,7 @@ impl Reader {
         }
         for path in paths {
             let Some(Kind::Problem { domain: wanted, .. }) = self.kind(path)? else { continue };
-            let problem = self.take(path)?;
+            let id = self.take(path)?;
             let named = |(domain, _): &&(Domain, bool)| {
                 wanted.as_ref().is_none_or(|wanted| domain.name.text.eq_ignore_ascii_case(wanted))
             };
@@ -96,12 +96,14 @@ impl Reader {
             }
             let (domain, sound) =
                 domains.iter().find(named).or(domains.last()).expect("one has just been added");
-            let (problem, more) = lang::read_problem(&self.sources, problem, domain);
+            let (problem, more) = lang::read_problem(&self.sources, id, domain);
             let sound = *sound && !more.has_errors();
             found.append(more);
             if sound {
                 found.append(lint::problem(domain, &problem));
+                found.append(lint::text(&self.sources, id, domain));
             }
+            lint::tell_factors(&mut found, domain, &problem);
         }
         allow::apply(&mut found, &self.sources);
         self.settle(&mut found);
@@ -170,6 +172,7 @@ impl Reader {
         found.append(more);
         if sound {
             found.append(lint::domain(&domain));
+            found.append(lint::text(&self.sources, id, &domain));
         }
         Ok((domain, sound))
     }
@@ -286,6 +289,11 @@ impl Reader {
 
 /// The files beside a problem that are called as its domain usually is, the most usual first.
 fn usual_domains(path: &Path) -> Vec<PathBuf> {
+    usual_names(path).into_iter().filter(|file| file != path && file.is_file()).collect()
+}
+
+/// What a domain beside a problem is usually called, the most usual first.
+pub fn usual_names(path: &Path) -> Vec<PathBuf> {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let short = stem.split('-').next().unwrap_or(&stem);
     let names = [
@@ -296,32 +304,38 @@ fn usual_domains(path: &Path) -> Vec<PathBuf> {
         format!("domain-{stem}.pddl"),
         format!("{short}-domain.pddl"),
     ];
-    let files = names.into_iter().map(|name| path.with_file_name(name));
-    files.filter(|file| file != path && file.is_file()).collect()
+    names.into_iter().map(|name| path.with_file_name(name)).collect()
 }
 
 /// The files beside `path` that define the domain `wanted`, or any domain: the first of the `usual` ones that does, or else all others.
 fn domains_beside(path: &Path, usual: &[PathBuf], wanted: Option<&str>) -> Vec<PathBuf> {
-    let defines = |file: &PathBuf| {
+    let defines = |file: &Path| {
         let mut sources = Sources::default();
         let id = sources.add(files::name(file), fs::read_to_string(file).unwrap_or_default());
-        match (lang::detect(&sources, id), wanted) {
-            (Some(Kind::Domain { name }), Some(wanted)) => name.eq_ignore_ascii_case(wanted),
-            (Some(Kind::Domain { .. }), None) => true,
-            _ => false,
-        }
+        is_domain(lang::detect(&sources, id).as_ref(), wanted)
     };
+    choose(usual, || files::beside(path), defines)
+}
+
+/// Whether a file defines the domain `wanted`, or any domain.
+pub fn is_domain(kind: Option<&Kind>, wanted: Option<&str>) -> bool {
+    match (kind, wanted) {
+        (Some(Kind::Domain { name }), Some(wanted)) => name.eq_ignore_ascii_case(wanted),
+        (Some(Kind::Domain { .. }), None) => true,
+        _ => false,
+    }
+}
+
+/// The first of the `usual` files that defines what is wanted, or else all others that do.
+pub fn choose(
+    usual: &[PathBuf],
+    others: impl FnOnce() -> Vec<PathBuf>,
+    mut defines: impl FnMut(&Path) -> bool,
+) -> Vec<PathBuf> {
     if let Some(found) = usual.iter().find(|file| defines(file)) {
         return vec![found.clone()];
     }
-    let entries = fs::read_dir(files::folder(path)).into_iter().flatten().flatten();
-    let mut beside: Vec<PathBuf> = entries
-        .map(|entry| path.with_file_name(entry.file_name()))
-        .filter(|file| file != path && files::is_pddl(file))
-        .filter(defines)
-        .collect();
-    beside.sort();
-    beside
+    others().into_iter().filter(|file| defines(file)).collect()
 }
 
 impl Input {

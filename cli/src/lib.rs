@@ -32,6 +32,7 @@ pub mod validate;
 pub mod ground;
 pub mod bench;
 pub mod explain;
+pub mod lsp;
 pub mod completions;
 
 use args::{Arguments, Verb};
@@ -86,6 +87,7 @@ fn dispatch(arguments: &[OsString], terminal: &mut Terminal) -> Exit {
         Verb::Ground(arguments) => ground::run(&arguments, terminal),
         Verb::Explain(arguments) => explain::run(&arguments, terminal),
         Verb::Bench(arguments) => bench::run(&arguments, terminal),
+        Verb::Lsp(arguments) => lsp::run(&arguments, terminal),
         Verb::Completions(arguments) => completions::run(&arguments, terminal),
     }
 }

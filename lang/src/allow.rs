@@ -5,7 +5,7 @@
 
 use crate::diagnostic::{Diagnostics, RULES, Rule, Severity, unknown_allow};
 use crate::near::nearest;
-use crate::source::{Sources, Span};
+use crate::source::{SourceId, Sources, Span};
 use crate::tree::{self, NodeId, NodeKind, Tree};
 
 /// What such a comment starts with, after its semicolons and blanks.
@@ -13,9 +13,18 @@ const OPENING: &str = "caveat: allow(";
 
 /// Takes out what is silenced in its own file, and reports comments that name no warning.
 pub fn apply(diagnostics: &mut Diagnostics, sources: &Sources) {
+    apply_in(diagnostics, sources, sources.ids());
+}
+
+/// As [`apply`], for comments in the files `ids` alone.
+pub fn apply_in(
+    diagnostics: &mut Diagnostics,
+    sources: &Sources,
+    ids: impl IntoIterator<Item = SourceId>,
+) {
     let mut allowed: Vec<(Span, &'static str)> = Vec::new();
     let mut wrong = Diagnostics::default();
-    for id in sources.ids() {
+    for id in ids {
         let text = &sources.get(id).text;
         if !text.contains(OPENING) {
             continue;

@@ -18,7 +18,8 @@ use crate::tree::{self, NodeId, Tree};
 pub use expression::{Children, Expression, Item, ItemId, Value};
 pub use kind::{KINDS, Kind, Stand, find};
 pub use place::Place;
-pub(crate) use run::{OPENING, Run, content, line_ends, runs};
+pub use run::words;
+pub(crate) use run::{OPENING, Run, content, runs};
 
 /// One s-expression of a run.
 #[derive(Debug, Clone)]

@@ -3,10 +3,24 @@
 //! Places are kept and do not count when two pieces are compared: `(p ?x)` equals `( p  ?x )`.
 //! Formulas are flat lists of nodes, each before its children, so that nothing needs recursion.
 
+mod formula;
+mod network;
+mod domain;
+mod problem;
+
 use std::fmt;
-use std::ops::Range;
 
 use crate::source::Span;
+
+pub use domain::{
+    Action, ActionKind, Agent, Axiom, Concurrency, Derived, Domain, DomainSection, Participant,
+    Predicates,
+};
+pub use formula::{
+    Application, Connective, Formula, Modality, Node, NodeKind, Operator, Quantifier, Time,
+};
+pub use network::{InitialNetwork, Method, Network, Subtask, Task};
+pub use problem::{Entry, EntryKind, Goal, Init, Metric, Problem, ProblemSection};
 
 /// A word as it is written: a name, a number, a variable with its `?`, a keyword with its `:`.
 #[derive(Debug, Clone, Copy)]
@@ -55,7 +69,7 @@ impl PartialEq for Place {
 
 impl Eq for Place {}
 
-/// A part of the language that is not read yet, and so is kept as text.
+/// A part of the language that can be checked and not be run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[expect(missing_docs, reason = "each says its name")]
 pub enum Feature {
@@ -99,7 +113,7 @@ impl Feature {
     }
 }
 
-/// A piece of the text that is not read yet.
+/// A piece of the text that is not read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Unread<'a> {
     /// What it belongs to.
@@ -130,6 +144,17 @@ pub struct Group<'a> {
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct TypedList<'a> {
     /// The groups in the order of the text.
+    pub groups: Vec<Group<'a>>,
+    /// The lists that stand in a `(:private …)` among them, each with its keyword.
+    pub private: Vec<Private<'a>>,
+}
+
+/// `(:private a b - t …)` among objects.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Private<'a> {
+    /// The keyword.
+    pub keyword: Name<'a>,
+    /// What stands after it; in a file of all agents the first name is the agent.
     pub groups: Vec<Group<'a>>,
 }
 
@@ -170,247 +195,4 @@ pub struct FunctionGroup<'a> {
     pub heads: Vec<Head<'a>>,
     /// `number` or the type of the value; none where it is left out.
     pub types: Option<TypeReference<'a>>,
-}
-
-/// A word that joins formulas.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[expect(missing_docs, reason = "each is the word of its own name")]
-pub enum Connective {
-    And,
-    Or,
-    Not,
-    Imply,
-    When,
-}
-
-impl Connective {
-    /// As PDDL writes it.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::And => "and",
-            Self::Or => "or",
-            Self::Not => "not",
-            Self::Imply => "imply",
-            Self::When => "when",
-        }
-    }
-}
-
-/// `forall` or `exists`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[expect(missing_docs, reason = "each is the word of its own name")]
-pub enum Quantifier {
-    Forall,
-    Exists,
-}
-
-impl Quantifier {
-    /// As PDDL writes it.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Forall => "forall",
-            Self::Exists => "exists",
-        }
-    }
-}
-
-/// A name applied to terms, which stand in the `terms` of the formula or the initial state at hand.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Application<'a> {
-    /// The predicate or the function.
-    pub name: Name<'a>,
-    /// Its arguments.
-    pub arguments: Range<u32>,
-}
-
-/// The right side of `increase`.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Amount<'a> {
-    /// A literal number.
-    Number(Name<'a>),
-    /// The value of a function.
-    Function(Application<'a>, Place),
-}
-
-/// What a [`Node`] says.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum NodeKind<'a> {
-    /// `(PREDICATE TERM …)`
-    Atom(Application<'a>),
-    /// `(= TERM …)`; the name is the `=`.
-    Equal(Application<'a>),
-    /// A connective with the nodes that follow as its operands; `()` is an `and` without any.
-    Connective(Connective),
-    /// A quantifier with its variables; its body follows.
-    Quantifier(Quantifier, TypedList<'a>),
-    /// `(increase (FUNCTION …) AMOUNT)`
-    Increase(Application<'a>, Amount<'a>),
-    /// What is not read yet.
-    Unread(Unread<'a>),
-}
-
-/// One node of a [`Formula`].
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Node<'a> {
-    /// What it says.
-    pub kind: NodeKind<'a>,
-    /// The node after this one and all of its operands.
-    pub next: u32,
-    /// The whole of it.
-    pub place: Place,
-    /// Its first word.
-    pub keyword: Place,
-}
-
-/// A condition or an effect: nodes, each before its operands.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Formula<'a> {
-    /// The nodes; the first is the outermost.
-    pub nodes: Vec<Node<'a>>,
-    /// The arguments of all nodes.
-    pub terms: Vec<Name<'a>>,
-}
-
-impl<'a> Formula<'a> {
-    /// The arguments of an application in this formula.
-    pub fn arguments(&self, application: &Application<'a>) -> &[Name<'a>] {
-        &self.terms[application.arguments.start as usize..application.arguments.end as usize]
-    }
-
-    /// The operands of the node at `index`.
-    pub fn operands(&self, index: usize) -> impl Iterator<Item = usize> + '_ {
-        let end = self.nodes[index].next as usize;
-        let mut at = index + 1;
-        std::iter::from_fn(move || {
-            let current = at;
-            (current < end).then(|| {
-                at = self.nodes[current].next as usize;
-                current
-            })
-        })
-    }
-}
-
-/// `(:action NAME …)`
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Action<'a> {
-    /// Its name.
-    pub name: Name<'a>,
-    /// The `:parameters`.
-    pub parameters: TypedList<'a>,
-    /// The `:precondition`s: one, or none where it is left out or empty; more are a mistake that has been reported.
-    pub preconditions: Vec<Formula<'a>>,
-    /// The `:effect`s, likewise.
-    pub effects: Vec<Formula<'a>>,
-    /// Fields that are not read yet.
-    pub unread: Vec<Unread<'a>>,
-    /// The whole action.
-    pub place: Place,
-}
-
-/// `(:derived (NAME PARAMETERS) BODY)`
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Derived<'a> {
-    /// What is derived.
-    pub head: Head<'a>,
-    /// When it holds.
-    pub body: Option<Formula<'a>>,
-    /// The whole rule.
-    pub place: Place,
-}
-
-/// A section of a domain.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum DomainSection<'a> {
-    /// `(:requirements …)`
-    Requirements(Vec<Name<'a>>),
-    /// `(:types …)`
-    Types(TypedList<'a>),
-    /// `(:constants …)`
-    Constants(TypedList<'a>),
-    /// `(:predicates …)`
-    Predicates(Vec<Head<'a>>),
-    /// `(:functions …)`
-    Functions(Vec<FunctionGroup<'a>>),
-    /// `(:action …)`
-    Action(Action<'a>),
-    /// `(:derived …)`
-    Derived(Derived<'a>),
-    /// What is not read yet.
-    Unread(Unread<'a>),
-}
-
-/// `(define (domain NAME) …)`
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Domain<'a> {
-    /// Its name.
-    pub name: Name<'a>,
-    /// Its sections in the order of the text.
-    pub sections: Vec<DomainSection<'a>>,
-}
-
-/// What an [`Entry`] of the initial state says.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum EntryKind<'a> {
-    /// `(PREDICATE OBJECT …)`
-    Fact(Application<'a>),
-    /// `(not (PREDICATE OBJECT …))`
-    Absent(Application<'a>),
-    /// `(= (FUNCTION OBJECT …) NUMBER)`
-    Value(Application<'a>, Name<'a>),
-    /// What is not read yet.
-    Unread(Unread<'a>),
-}
-
-/// One element of `:init`.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Entry<'a> {
-    /// What it says.
-    pub kind: EntryKind<'a>,
-    /// The whole of it.
-    pub place: Place,
-}
-
-/// `(:init …)`
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Init<'a> {
-    /// The elements in the order of the text.
-    pub entries: Vec<Entry<'a>>,
-    /// The arguments of all entries.
-    pub terms: Vec<Name<'a>>,
-}
-
-impl<'a> Init<'a> {
-    /// The arguments of an application in this initial state.
-    pub fn arguments(&self, application: &Application<'a>) -> &[Name<'a>] {
-        &self.terms[application.arguments.start as usize..application.arguments.end as usize]
-    }
-}
-
-/// A section of a problem.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum ProblemSection<'a> {
-    /// `(:domain NAME)`
-    Domain(Name<'a>),
-    /// `(:requirements …)`
-    Requirements(Vec<Name<'a>>),
-    /// `(:objects …)`
-    Objects(TypedList<'a>),
-    /// `(:init …)`
-    Init(Init<'a>),
-    /// `(:goal …)`; several formulas are a mistake that has been reported.
-    Goal(Vec<Formula<'a>>),
-    /// `(:metric minimize (FUNCTION))`; the place is that of the function with its parentheses.
-    Metric(Name<'a>, Place),
-    /// What is not read yet.
-    Unread(Unread<'a>),
-}
-
-/// `(define (problem NAME) …)`
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Problem<'a> {
-    /// Its name.
-    pub name: Name<'a>,
-    /// Its sections in the order of the text.
-    pub sections: Vec<ProblemSection<'a>>,
 }

@@ -7,24 +7,28 @@ mod record;
 mod requirement;
 mod hierarchy;
 mod scope;
+mod value;
 mod condition;
 mod effect;
+mod temporal;
+mod agents;
+mod network;
+mod action;
 mod domain;
 mod problem;
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use hashbrown::HashSet;
 
-use crate::ast::{self, Feature, Unread};
-use crate::diagnostic::{
-    Diagnostic, Diagnostics, Rule, agent_without_multi_agent, missing_requirement, unexpected_item,
-    unknown_predicate,
-};
-use crate::model::{self, Object, TypeId, Use, Variable};
-use crate::near::nearest;
+use crate::ast::{self, Feature};
+use crate::diagnostic::{Diagnostic, Diagnostics, Rule, missing_requirement, unknown_variable};
+use crate::model::{self, FunctionId, Object, TypeId, Use, Variable};
 use crate::source::Span;
 use crate::symbol::{Occurrences, Role};
 
 use index::Index;
+use record::Reading;
 use requirement::{Flags, Need};
 
 pub use domain::domain;
@@ -43,8 +47,22 @@ struct Report<'d> {
     declared: Flags,
     /// The requirements that have been reported as missing.
     missing: Flags,
-    /// Whether parts that are not read may declare names, so that nothing can be said about unknown ones.
+    /// Where a missing requirement can be written, and whether the list of them must be written too.
+    flags: (Span, bool),
+    /// Whether there is no domain, or only a piece of one, so that nothing can be said about unknown names but variables.
     blind: bool,
+    /// Whether a metric is read, where more words have a meaning.
+    metric: bool,
+    /// The named preferences so far.
+    preferences: Vec<model::Name>,
+    /// What the values that are read are for.
+    reading: Reading,
+    /// The functions whose values a plan depends on, with the first place of each.
+    read: BTreeMap<FunctionId, Span>,
+    /// The functions to which some effect assigns a value.
+    assigned: BTreeSet<FunctionId>,
+    /// The functions that the initial state gives a value that the model does not hold.
+    timed: BTreeSet<FunctionId>,
     /// How many more names may be compared with a misspelt one.
     comparisons: usize,
     /// The names that have been resolved, if somebody wants to know.
@@ -60,6 +78,7 @@ impl<'d> Report<'d> {
     fn new(
         diagnostics: &'d mut Diagnostics,
         declared: Flags,
+        flags: (Span, bool),
         occurrences: Option<&'d mut Occurrences>,
     ) -> Self {
         Self {
@@ -68,7 +87,14 @@ impl<'d> Report<'d> {
             uses: Vec::new(),
             declared,
             missing: Flags::default(),
+            flags,
             blind: false,
+            metric: false,
+            preferences: Vec::new(),
+            reading: Reading::default(),
+            read: BTreeMap::new(),
+            assigned: BTreeSet::new(),
+            timed: BTreeSet::new(),
             comparisons: COMPARISONS,
             occurrences,
             role: Role::default(),
@@ -81,7 +107,8 @@ impl<'d> Report<'d> {
 
     /// Whether this is the first mistake of this kind about this name.
     fn first(&mut self, rule: &Rule, name: &str) -> bool {
-        !self.blind && self.said.insert((rule.code, name.to_ascii_lowercase()))
+        (!self.blind || rule.code == unknown_variable::RULE.code)
+            && self.said.insert((rule.code, name.to_ascii_lowercase()))
     }
 
     /// The name that was probably meant.
@@ -91,27 +118,19 @@ impl<'d> Report<'d> {
     }
 
     /// Notes once for each feature that it is used.
-    fn uses(&mut self, unread: &Unread<'_>) {
-        if unread.keyword.is(":agent") && !self.declared.agents() {
-            if self.said.insert((agent_without_multi_agent::RULE.code, String::new())) {
-                self.push(agent_without_multi_agent::agent_without_multi_agent(
-                    unread.keyword.span,
-                ));
-            }
-            return;
-        }
-        self.blind |= unread.keyword.is(":private");
-        if self.uses.iter().all(|one| one.feature != unread.feature) {
-            self.uses.push(Use { feature: unread.feature, span: unread.keyword.span });
+    fn uses(&mut self, feature: Feature, span: Span) {
+        if self.uses.iter().all(|one| one.feature != feature) {
+            self.uses.push(Use { feature, span });
         }
     }
 
     /// Says once for each requirement that something needs it.
     fn need(&mut self, need: Need, span: Span) {
         let (flags, proposed, name, what) = need.describe();
-        if !self.declared.meets(flags) && !self.missing.meets(flags) {
+        if !self.blind && !self.declared.meets(flags) && !self.missing.meets(flags) {
             self.missing.add(proposed);
-            self.push(missing_requirement::missing_requirement(name, span, what));
+            let diagnostic = missing_requirement::missing_requirement(name, span, what);
+            self.push(diagnostic.fix_requirement(name, self.flags));
         }
     }
 }
@@ -132,9 +151,11 @@ struct Names<'a> {
     types: Index<'a>,
     predicates: Index<'a>,
     functions: Index<'a>,
-    /// Whether some function may have objects as values.
-    object_functions: bool,
     objects: Index<'a>,
+    /// The actions of all kinds, by their position among the signatures.
+    actions: Index<'a>,
+    /// The tasks, likewise.
+    tasks: Index<'a>,
 }
 
 impl World<'_, '_> {
@@ -146,6 +167,15 @@ impl World<'_, '_> {
         have.is_empty()
             || wanted.is_empty()
             || if all { have.iter().any(below) } else { have.iter().all(below) }
+    }
+
+    /// Whether something may be of one of the types `have` and of one of `other`.
+    fn overlap(&self, have: &[TypeId], other: &[TypeId]) -> bool {
+        let table = &self.domain.types;
+        let both = |&one: &TypeId, &two: &TypeId| {
+            table.iter().any(|of| of.ancestors.contains(&one) && of.ancestors.contains(&two))
+        };
+        have.iter().any(|one| other.iter().any(|two| both(one, two)))
     }
 
     /// The types as a message shows them.
@@ -172,29 +202,6 @@ fn describe_parameters(table: &[model::Type], parameters: &[Variable]) -> String
         format!("{} - {}", parameter.name.text, describe_types(table, &parameter.types))
     });
     shown.collect::<Vec<_>>().join(" ")
-}
-
-/// Says what is wrong with a formula that could not be read, or notes what it uses.
-fn unread(world: &World<'_, '_>, unread: &Unread<'_>, report: &mut Report<'_>) {
-    if unread.feature == Feature::ObjectFluents
-        && !world.names.object_functions
-        && unread.keyword.text != "="
-    {
-        let words = ["and", "or", "not", "imply", "forall", "exists", "when"];
-        let near = nearest(unread.keyword.text, words);
-        if near.is_some() || world.names.predicates.find(unread.keyword.text).is_none() {
-            report.push(unknown_predicate::unknown_predicate(
-                unread.keyword.text,
-                unread.keyword.span,
-                near,
-            ));
-        } else {
-            let message = "objects and variables as arguments, not a formula";
-            report.push(unexpected_item::unexpected_item(message, unread.node.span));
-        }
-        return;
-    }
-    report.uses(unread);
 }
 
 fn name(name: ast::Name<'_>) -> model::Name {

@@ -17,39 +17,81 @@ pub mod duplicate_field;
 pub mod connective_in_init;
 pub mod unexpected_item;
 pub mod not_utf8;
+pub mod misplaced_parenthesis;
 pub mod unknown_predicate;
 pub mod unused_parameter;
 pub mod shadowed_variable;
 pub mod unused_predicate;
+pub mod unused_function;
+pub mod unused_type;
+pub mod unused_variable;
+pub mod fixed_parameter;
 pub mod unknown_variable;
 pub mod unknown_object;
 pub mod duplicate_definition;
 pub mod duplicate_parameter;
 pub mod domain_name_mismatch;
 pub mod unknown_function;
+pub mod unknown_preference;
+pub mod unknown_action;
 pub mod wrong_arity;
 pub mod type_mismatch;
 pub mod unknown_type;
 pub mod cyclic_types;
 pub mod function_as_predicate;
+pub mod predicate_as_function;
 pub mod suspicious_type_list;
+pub mod disjoint_types;
+pub mod untyped_tail;
 pub mod unknown_requirement;
 pub mod missing_requirement;
+pub mod unused_requirement;
+pub mod repeated_requirement;
 pub mod unsupported_feature;
 pub mod wrong_operand_count;
 pub mod contradictory_effect;
 pub mod constant_condition;
 pub mod never_applicable;
+pub mod effect_without_change;
+pub mod action_without_effect;
+pub mod repeated_condition;
+pub mod repeated_effect;
+pub mod identical_actions;
+pub mod decided_condition;
+pub mod circular_rule;
+pub mod overridden_effect;
 pub mod disjunctive_effect;
 pub mod when_in_condition;
 pub mod unstratified_axioms;
 pub mod uninitialised_function;
+pub mod wrong_value;
+pub mod missing_time_specifier;
 pub mod missing_duration;
+pub mod misplaced_time_specifier;
+pub mod unknown_time_specifier;
+pub mod invalid_duration;
 pub mod derived_effect;
+pub mod misplaced_modality;
 pub mod variable_in_init;
 pub mod goal_unreachable;
 pub mod goal_already_true;
+pub mod action_atom_arity;
+pub mod repeated_fact;
+pub mod contradictory_fact;
+pub mod derived_fact;
+pub mod constant_metric;
+pub mod cost_without_metric;
+pub mod contradictory_goal;
+pub mod type_without_objects;
+pub mod static_predicate;
+pub mod unread_predicate;
 pub mod agent_without_multi_agent;
+pub mod private_access;
+pub mod unknown_constraint;
+pub mod constraint_position;
+pub mod subtask_arity;
+pub mod unknown_task;
+pub mod unknown_subtask;
 pub mod unknown_annotation;
 pub mod unbalanced_annotation;
 pub mod misplaced_annotation;
@@ -82,39 +124,81 @@ pub const RULES: &[Rule] = &[
     connective_in_init::RULE,
     unexpected_item::RULE,
     not_utf8::RULE,
+    misplaced_parenthesis::RULE,
     unknown_predicate::RULE,
     unused_parameter::RULE,
     shadowed_variable::RULE,
     unused_predicate::RULE,
+    unused_function::RULE,
+    unused_type::RULE,
+    unused_variable::RULE,
+    fixed_parameter::RULE,
     unknown_variable::RULE,
     unknown_object::RULE,
     duplicate_definition::RULE,
     duplicate_parameter::RULE,
     domain_name_mismatch::RULE,
     unknown_function::RULE,
+    unknown_preference::RULE,
+    unknown_action::RULE,
     wrong_arity::RULE,
     type_mismatch::RULE,
     unknown_type::RULE,
     cyclic_types::RULE,
     function_as_predicate::RULE,
+    predicate_as_function::RULE,
     suspicious_type_list::RULE,
+    disjoint_types::RULE,
+    untyped_tail::RULE,
     unknown_requirement::RULE,
     missing_requirement::RULE,
+    unused_requirement::RULE,
+    repeated_requirement::RULE,
     unsupported_feature::RULE,
     wrong_operand_count::RULE,
     contradictory_effect::RULE,
     constant_condition::RULE,
     never_applicable::RULE,
+    effect_without_change::RULE,
+    action_without_effect::RULE,
+    repeated_condition::RULE,
+    repeated_effect::RULE,
+    identical_actions::RULE,
+    decided_condition::RULE,
+    circular_rule::RULE,
+    overridden_effect::RULE,
     disjunctive_effect::RULE,
     when_in_condition::RULE,
     unstratified_axioms::RULE,
     uninitialised_function::RULE,
+    wrong_value::RULE,
+    missing_time_specifier::RULE,
     missing_duration::RULE,
+    misplaced_time_specifier::RULE,
+    unknown_time_specifier::RULE,
+    invalid_duration::RULE,
     derived_effect::RULE,
+    misplaced_modality::RULE,
     variable_in_init::RULE,
     goal_unreachable::RULE,
     goal_already_true::RULE,
+    action_atom_arity::RULE,
+    repeated_fact::RULE,
+    contradictory_fact::RULE,
+    derived_fact::RULE,
+    constant_metric::RULE,
+    cost_without_metric::RULE,
+    contradictory_goal::RULE,
+    type_without_objects::RULE,
+    static_predicate::RULE,
+    unread_predicate::RULE,
     agent_without_multi_agent::RULE,
+    private_access::RULE,
+    unknown_constraint::RULE,
+    constraint_position::RULE,
+    subtask_arity::RULE,
+    unknown_task::RULE,
+    unknown_subtask::RULE,
     unknown_annotation::RULE,
     unbalanced_annotation::RULE,
     misplaced_annotation::RULE,
@@ -260,6 +344,32 @@ impl Diagnostic {
             edits: vec![(span, replacement.into())],
         });
         self
+    }
+
+    /// Adds another range to the last fix.
+    #[must_use]
+    pub fn along(mut self, span: Span, replacement: impl Into<String>) -> Self {
+        if let Some(fix) = self.fixes.last_mut() {
+            fix.edits.push((span, replacement.into()));
+        }
+        self
+    }
+
+    /// Offers to write something around the place of the mistake.
+    #[must_use]
+    pub fn wrap(self, before: &str, after: &str) -> Self {
+        let Span { source, start, end } = self.primary.span;
+        let title = format!("write `{before}…{after}` around it");
+        self.fix(title, Span::new(source, start, start), before)
+            .along(Span::new(source, end, end), after)
+    }
+
+    /// Offers to declare a requirement, at a place in the list of them or before it if the list `is_missing`.
+    #[must_use]
+    pub fn fix_requirement(self, flag: &str, (place, is_missing): (Span, bool)) -> Self {
+        let text =
+            if is_missing { format!("\n  (:requirements {flag})") } else { format!(" {flag}") };
+        self.fix(format!("declare `{flag}`"), place, text).safely()
     }
 
     /// Says that the last fix only writes what the text was taken to mean anyway.

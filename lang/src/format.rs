@@ -11,8 +11,9 @@ mod annotation;
 use std::iter::Peekable;
 use std::vec::IntoIter;
 
-use crate::annotation::{Run, line_ends, runs};
+use crate::annotation::{Run, runs};
 use crate::diagnostic::Diagnostics;
+use crate::lexer::line_ends;
 use crate::source::SourceId;
 use crate::tree::{self, Node, NodeId, NodeKind, Tree};
 
@@ -36,14 +37,11 @@ fn lay_out(text: &str, width: usize, annotated: bool) -> Option<String> {
     if !tree.nodes().iter().all(sound) {
         return None;
     }
-    let line_ends = text.bytes().enumerate().filter(|&(_, byte)| matches!(byte, b'\n' | b'\r'));
-    let line_ends = line_ends.map(|(at, _)| at as u32).collect();
     let runs = if annotated { runs(&tree) } else { Vec::new() };
     let mut layout = Layout {
         tree: &tree,
         width,
         runs: runs.into_iter().peekable(),
-        line_ends,
         out: String::with_capacity(text.len() + text.len() / 8),
         column: 0,
         indent: 0,
@@ -82,6 +80,12 @@ struct Frame {
     last: Option<NodeId>,
 }
 
+impl Frame {
+    fn new(next: u32, indent: usize, shape: Shape) -> Self {
+        Self { next, indent, shape, written: 0, last: None }
+    }
+}
+
 /// How something is set off from what stands before it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Gap {
@@ -96,8 +100,6 @@ struct Layout<'t, 'a> {
     width: usize,
     /// The annotations that are still to come.
     runs: Peekable<IntoIter<Run>>,
-    /// Where the lines of the input end.
-    line_ends: Vec<u32>,
     out: String,
     /// How much of the current line is written.
     column: usize,
@@ -118,9 +120,7 @@ impl Layout<'_, '_> {
             let (id, node) = (NodeId(at), nodes[at as usize]);
             at += 1;
             match node.kind {
-                NodeKind::Space => {
-                    self.ends += line_ends(self.tree.slice(id));
-                }
+                NodeKind::Space => self.ends += line_ends(self.tree.slice(id)),
                 NodeKind::Comment => {
                     if let Some(run) = self.runs.next_if(|run| run.lines[0] == id) {
                         at = run.lines[run.lines.len() - 1].0 + 1;
@@ -157,42 +157,53 @@ impl Layout<'_, '_> {
         }
         self.write("(");
         let shape = self.shape(id);
-        self.open.push(Frame {
-            next: node.next,
-            indent: self.indent,
-            shape,
-            written: 0,
-            last: None,
-        });
+        self.open.push(Frame::new(node.next, self.indent, shape));
         id.0 + 1
     }
 
-    /// The list in one line, if the author wrote it in one line and it is short.
+    /// The list in one line, if the author wrote what it contains in one line and it is short.
     fn flat(&self, id: NodeId, node: Node) -> Option<String> {
-        let first = self.line_ends.partition_point(|&end| end < node.start);
-        let broken = self.line_ends.get(first).is_some_and(|&end| end < node.end);
-        if broken || self.shape(id) == Shape::Definition {
+        if self.shape(id) == Shape::Definition {
             return None;
         }
         let nodes = self.tree.nodes();
         let mut flat = String::new();
-        let mut open: Vec<u32> = Vec::new();
+        let mut open: Vec<(NodeId, Frame)> = Vec::new();
+        let mut ends = false;
         for at in id.0..node.next {
-            while open.pop_if(|next| *next == at).is_some() {
+            while open.pop_if(|(_, frame)| frame.next == at).is_some() {
                 flat.push(')');
+                ends = false;
             }
-            let one = nodes[at as usize];
-            if !matches!(one.kind, NodeKind::Atom | NodeKind::List) {
-                continue;
+            let (item, one) = (NodeId(at), nodes[at as usize]);
+            match one.kind {
+                NodeKind::Space => {
+                    ends |= line_ends(self.tree.slice(item)) > 0;
+                    continue;
+                }
+                NodeKind::Atom | NodeKind::List => {}
+                _ => return None,
             }
-            if !flat.is_empty() && !flat.ends_with('(') {
-                flat.push(' ');
+            let word = (one.kind == NodeKind::Atom).then_some(item);
+            if let Some((list, frame)) = open.last_mut() {
+                if frame.written > 0 {
+                    flat.push(' ');
+                    if ends {
+                        frame.shape = self.shape(*list);
+                        // A line end that would not be kept must not count, or the result would be laid out in another way.
+                        if self.gap(frame, item) != Gap::Space {
+                            return None;
+                        }
+                    }
+                }
+                (frame.written, frame.last) = (frame.written + 1, word);
             }
-            if one.kind == NodeKind::List {
-                flat.push('(');
-                open.push(one.next);
+            ends = false;
+            if word.is_some() {
+                flat.push_str(self.tree.slice(item));
             } else {
-                flat.push_str(self.tree.slice(NodeId(at)));
+                flat.push('(');
+                open.push((item, Frame::new(one.next, 0, Shape::Plain)));
             }
             if flat.len() > 4 * WIDTH {
                 return None;

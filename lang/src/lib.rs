@@ -34,6 +34,7 @@ pub mod format;
 pub mod allow;
 pub mod mend;
 pub mod render;
+pub mod ide;
 
 pub use annotation::annotations;
 pub use diagnostic::explain;

@@ -4,28 +4,59 @@
 //! They run on files without errors, and take time linear in the size of the files.
 
 mod condition;
+mod effect;
 mod reach;
+mod task;
+mod text;
+mod list;
+mod requirement;
+mod action;
+mod initial;
+mod factor;
 
 use hashbrown::HashMap;
 
 use crate::diagnostic::{Diagnostics, goal_already_true, unused_predicate};
-use crate::model::{Domain, Fact, Formula, NodeKind, Problem, Term};
+use crate::model::{Domain, Fact, Formula, NodeKind, Problem, Scope, Term};
+use crate::source::{SourceId, Sources};
+use crate::tree;
+
+use condition::{Named, Place};
+
+pub use factor::tell as tell_factors;
 
 /// What there is to say about a domain.
 pub fn domain(domain: &Domain) -> Diagnostics {
     let mut found = Diagnostics::default();
+    let place = |scope| Place { domain, objects: &domain.constants, scope };
+    // Where something is not resolved, what has been resolved is not all that happens.
+    let whole = domain.uses.is_empty();
     for axiom in &domain.axioms {
-        condition::constants(&axiom.body, &mut found);
+        condition::check(&axiom.body, place(&axiom.scope), &mut found);
+        condition::circular(axiom, domain, &mut found);
+        let owner = format!("the rule for `{}`", domain.predicates[axiom.head.index()].name.text);
+        if whole {
+            named(&axiom.scope, &owner, |named| named.formula(&axiom.body), &mut found);
+        }
     }
     for action in &domain.actions {
-        condition::constants(&action.precondition, &mut found);
-        condition::contradictions(action, &mut found);
+        let place = place(&action.scope);
+        condition::check(&action.precondition, place, &mut found);
         for effect in &action.effects {
-            condition::constants(&effect.condition, &mut found);
+            condition::check(&effect.condition, place, &mut found);
+        }
+        condition::fixed(action, place, &mut found);
+        let contradictory = condition::contradictions(action, &mut found);
+        if whole {
+            let owner = format!("action `{}`", action.name.text);
+            named(&action.scope, &owner, |named| named.action(action), &mut found);
+            if !contradictory {
+                effect::check(action, &mut found);
+            }
         }
     }
     // What is not resolved may use any predicate.
-    if domain.uses.is_empty() {
+    if whole {
         unused(domain, &mut found);
     }
     found
@@ -34,16 +65,40 @@ pub fn domain(domain: &Domain) -> Diagnostics {
 /// What there is to say about a problem of `domain`.
 pub fn problem(domain: &Domain, problem: &Problem) -> Diagnostics {
     let mut found = Diagnostics::default();
-    condition::constants(&problem.goal, &mut found);
+    let place = Place { domain, objects: &problem.objects, scope: &problem.goal_scope };
+    condition::check(&problem.goal, place, &mut found);
+    let impossible = condition::impossible(&problem.goal, &mut found);
     if domain.uses.is_empty() && problem.uses.is_empty() {
+        named(&problem.goal_scope, "the goal", |named| named.formula(&problem.goal), &mut found);
+        let mut stuck = vec![false; domain.actions.len()];
         if already(domain, problem) {
             let span = problem.goal.nodes[problem.goal.root().index()].span;
             found.push(goal_already_true::goal_already_true(span));
-        } else {
-            reach::check(domain, problem, &mut found);
+        } else if !impossible {
+            stuck = reach::check(domain, problem, &mut found);
         }
+        task::check(domain, problem, &stuck, &mut found);
     }
     found
+}
+
+/// What there is to say about how a domain, or a problem of `domain`, is written.
+///
+/// The other lints see only the model, in which facts have no places and repetitions are gone.
+pub fn text(sources: &Sources, id: SourceId, domain: &Domain) -> Diagnostics {
+    let mut found = Diagnostics::default();
+    let tree = tree::parse(id, &sources.get(id).text, &mut Diagnostics::default());
+    text::check(&text::Text::new(&tree), domain, &mut found);
+    found
+}
+
+/// Reports variables of a scope that a quantifier binds in vain.
+fn named(scope: &Scope, owner: &str, read: impl FnOnce(&mut Named), found: &mut Diagnostics) {
+    if scope.variables.len() > scope.parameters as usize {
+        let mut named = Named::default();
+        read(&mut named);
+        named.report(scope, owner, found);
+    }
 }
 
 /// Reports predicates that nothing names.

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use rust_decimal::Decimal;
 
-use crate::ast::Feature;
+use crate::ast::{ActionKind, Feature};
 use crate::source::Span;
 
 macro_rules! id {
@@ -65,6 +65,18 @@ pub enum Requirement {
     ConditionalEffects,
     DerivedPredicates,
     ActionCosts,
+    NumericFluents,
+    ObjectFluents,
+    DurativeActions,
+    DurationInequalities,
+    ContinuousEffects,
+    TimedInitialLiterals,
+    Preferences,
+    Constraints,
+    Time,
+    Hierarchy,
+    MultiAgent,
+    FactoredPrivacy,
 }
 
 /// A part of the language that is used and not yet resolved, so that nothing can run what stands there.
@@ -88,7 +100,7 @@ impl Use {
 pub struct Domain {
     /// The name in `(define (domain NAME) …)`.
     pub name: Name,
-    /// What `:requirements` declares, with the aggregates (`:adl`, `:quantified-preconditions`) taken apart.
+    /// What `:requirements` declares, with the aggregates (`:adl`, `:quantified-preconditions`) taken apart, and what the domain uses without declaring it.
     pub requirements: BTreeSet<Requirement>,
     /// All types; the first is `object`, the root.
     pub types: Vec<Type>,
@@ -102,8 +114,34 @@ pub struct Domain {
     pub axioms: Vec<Axiom>,
     /// The `:action`s.
     pub actions: Vec<Action>,
+    /// Everything that can be done by name, in the order of the text: actions of all kinds, and the tasks of HDDL.
+    pub signatures: Vec<Signature>,
+    /// The named preferences of preconditions and constraints.
+    pub preferences: Vec<Name>,
     /// What the domain uses beyond that, each once.
     pub uses: Vec<Use>,
+}
+
+/// What a [`Signature`] belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Doing {
+    /// An action, a durative action, a process or an event.
+    Action(ActionKind),
+    /// A task of HDDL, which methods take apart.
+    Task,
+}
+
+/// What can be done, and with what.
+#[derive(Debug, Clone)]
+pub struct Signature {
+    /// Its name.
+    pub name: Name,
+    /// What it is.
+    pub doing: Doing,
+    /// Its parameters; in MA-PDDL the agent is the first of them.
+    pub parameters: Vec<Variable>,
+    /// Whether the first parameter is the agent.
+    pub agent: bool,
 }
 
 /// A type and where it stands in the hierarchy.
@@ -144,15 +182,34 @@ pub struct Predicate {
     pub parameters: Vec<Variable>,
     /// Whether an axiom derives it.
     pub derived: bool,
+    /// Whose it is, in MA-PDDL.
+    pub owner: Option<Owner>,
 }
 
-/// A declared numeric function, such as `total-cost` or `(distance ?a ?b)`.
+/// Whose a private predicate is.
+#[derive(Debug, Clone)]
+pub struct Owner {
+    /// Which of the predicate's parameters is the agent, if one of them is.
+    pub position: Option<usize>,
+    /// The types of the agents.
+    pub types: Vec<TypeId>,
+    /// Where it is declared.
+    pub span: Span,
+}
+
+/// A declared function, such as `total-cost`, `(distance ?a ?b)`, or one that has objects as values.
 #[derive(Debug, Clone)]
 pub struct Function {
     /// Its name.
     pub name: Name,
     /// Its declared parameters, of which the types count.
     pub parameters: Vec<Variable>,
+    /// The types of the objects that are its values; none for a function of numbers.
+    pub values: Option<Vec<TypeId>>,
+    /// Where its value is asked for first: in a condition, an effect on another function, or a duration.
+    pub read: Option<Span>,
+    /// Whether some effect gives it a value that does not depend on the one before.
+    pub assigned: bool,
 }
 
 /// The variables of an action, an axiom or a goal: the parameters first, then one for each variable that a quantifier binds.
@@ -220,7 +277,7 @@ pub struct Literal {
     pub span: Span,
 }
 
-/// `(increase (FUNCTION …) VALUE)`: only cost functions are read so far.
+/// `(increase (FUNCTION …) VALUE)` by a number or the value of a function, as costs are written; other numeric effects are a [`Use`].
 #[derive(Debug, Clone)]
 pub struct Increase {
     /// What the enclosing `forall`s bind.

@@ -54,6 +54,17 @@ impl Sources {
         SourceId(self.texts.len() as u32 - 1)
     }
 
+    /// Puts another text in the place of the one that `id` names. Spans in the old text lose their meaning.
+    pub fn replace(&mut self, id: SourceId, text: impl Into<String>) {
+        self.texts[id.0 as usize].text = text.into();
+    }
+
+    /// Puts `new` in the place of a range of bytes, which must lie between characters.
+    pub fn splice(&mut self, span: Span, new: &str) {
+        let range = span.start as usize..span.end as usize;
+        self.texts[span.source.0 as usize].text.replace_range(range, new);
+    }
+
     /// The names of all sources, in the order in which they were read.
     pub fn ids(&self) -> impl Iterator<Item = SourceId> + use<> {
         (0..self.texts.len() as u32).map(SourceId)

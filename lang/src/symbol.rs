@@ -21,7 +21,11 @@ pub enum Namespace {
     Variable,
     Task,
     Method,
+    /// The name of a subtask within its task network.
+    Subtask,
     Preference,
+    /// A concurrency constraint of MA-PDDL.
+    Constraint,
 }
 
 impl Namespace {
@@ -38,7 +42,9 @@ impl Namespace {
             Self::Variable => "variable",
             Self::Task => "task",
             Self::Method => "method",
+            Self::Subtask => "subtask",
             Self::Preference => "preference",
+            Self::Constraint => "concurrency constraint",
         }
     }
 }

@@ -2,6 +2,9 @@
 
 mod list;
 mod formula;
+mod action;
+mod agents;
+mod network;
 mod domain;
 mod problem;
 
@@ -9,6 +12,7 @@ use crate::ast::{Feature, Name, Place, Unread};
 use crate::diagnostic::{Diagnostics, not_a_pddl_file, unexpected_item};
 use crate::lexer;
 use crate::source::Span;
+use crate::tree::NodeKind::{Atom, Comment, Space};
 use crate::tree::{NodeId, Tree};
 
 pub use domain::domain;
@@ -56,6 +60,43 @@ impl<'a> Reader<'a, '_> {
         self.diagnostics.push(unexpected_item::unexpected_item(expected, span));
     }
 
+    /// Says that something else is expected where a word stands, once for all words that stand beside it.
+    fn stray(&mut self, expected: &str, id: NodeId) {
+        let tree = self.tree;
+        let kind = |at: u32| tree.node(NodeId(at)).kind;
+        let word = |at: u32| kind(at) == Atom && !tree.slice(NodeId(at)).starts_with(':');
+        // Whether the words at `at` and after it stand on different lines.
+        let parted = |at: u32| kind(at) == Space && tree.slice(NodeId(at)).contains('\n');
+        if id.0 >= 2 && kind(id.0 - 1) == Space && !parted(id.0 - 1) && word(id.0 - 2) {
+            let mut before = id.0 - 2;
+            while before > 0 && matches!(kind(before - 1), Space | Comment) {
+                before -= 1;
+            }
+            if before > 0 && !tree.is_list(NodeId(before - 1)) {
+                return;
+            }
+        }
+        let mut last = id.0;
+        let end = tree.nodes().len() as u32;
+        while last + 2 < end && kind(last + 1) == Space && !parted(last + 1) {
+            if !word(last + 2) {
+                break;
+            }
+            last += 2;
+        }
+        let span = tree.span(id).to(tree.span(NodeId(last)));
+        if last == id.0 && !lexer::is_plain_text(tree.slice(id)) {
+            // Its characters have been reported already.
+            return;
+        }
+        let continues = id.0 >= 2
+            && parted(id.0 - 1)
+            && kind(id.0 - 2) == Comment
+            && (last + 1 == end || parted(last + 1));
+        let diagnostic = unexpected_item::unexpected_item(expected, span);
+        self.diagnostics.push(if continues { diagnostic.in_comment() } else { diagnostic });
+    }
+
     /// The node, or only its parenthesis and first word if it is a long list.
     fn opening(&self, id: NodeId) -> Span {
         let span = self.tree.span(id);
@@ -83,6 +124,16 @@ impl<'a> Reader<'a, '_> {
             self.diagnostics.push(diagnostic);
             return nothing;
         };
+        if let Some(section) = self.head(first).filter(|head| head.text.starts_with(':')) {
+            self.diagnostics.push(not_a_pddl_file::not_a_pddl_file(
+                section.span,
+                format!("there is no `(define ({whole} NAME) …)` around this"),
+                "a section on its own",
+                example,
+            ));
+            let sections = self.tree.roots().filter(|&root| self.tree.is_list(root)).collect();
+            return (nothing.0, sections);
+        }
         if !self.head(first).is_some_and(|head| head.is("define")) {
             let span = self.opening(first);
             let message = "this is not a PDDL file";
@@ -168,7 +219,7 @@ fn lower<'b>(word: &str, buffer: &'b mut [u8; 24]) -> &'b str {
 }
 
 /// Whether a word is a number and no name: `15` is one, `15-puzzle` is not.
-fn is_number(word: &str) -> bool {
+pub(crate) fn is_number(word: &str) -> bool {
     fn unsigned(word: &str) -> &str {
         word.strip_prefix(['-', '+']).unwrap_or(word)
     }

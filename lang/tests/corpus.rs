@@ -30,13 +30,17 @@ fn read(domain: &Path, problem: &Path) -> (Diagnostics, Sources) {
             fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         sources.add(path.display().to_string(), text)
     };
-    let (domain, problem) = (add(domain), add(problem));
-    let (model, mut diagnostics) = lang::read_domain(&sources, domain);
-    let (problem, more) = lang::read_problem(&sources, problem, &model);
+    let ids = [add(domain), add(problem)];
+    let (model, mut diagnostics) = lang::read_domain(&sources, ids[0]);
+    let (problem, more) = lang::read_problem(&sources, ids[1], &model);
     diagnostics.append(more);
     if !diagnostics.has_errors() {
         diagnostics.append(lint::domain(&model));
         diagnostics.append(lint::problem(&model, &problem));
+        for id in ids {
+            diagnostics.append(lint::text(&sources, id, &model));
+        }
+        lint::tell_factors(&mut diagnostics, &model, &problem);
     }
     (diagnostics, sources)
 }
@@ -98,9 +102,11 @@ fn tricky_valid_files_have_no_messages() {
     let (folder, good) = (corpus.join("valid-pddl"), corpus.join("bad-pddl"));
     for case in cases(&folder.join("valid.json")) {
         let (domain, problem) = pair(&case, &folder, &good);
-        let (diagnostics, sources) = read(&domain, &problem);
-        let errors = diagnostics.has_errors();
-        assert!(!errors, "{}: {}", case["why"], render::concise(&diagnostics, &sources));
+        let (mut diagnostics, sources) = read(&domain, &problem);
+        // One of them has types and no `:requirements` at all, and is told so.
+        diagnostics.list.retain(|one| one.name != "missing-requirement");
+        let said = render::concise(&diagnostics, &sources);
+        assert_eq!(said, "", "{}", case["why"]);
     }
 }
 
@@ -134,6 +140,9 @@ fn multi_agent_domains_have_no_errors() {
             domains += 1;
             let (_, mut diagnostics) = lang::read_domain(&sources, id);
             diagnostics.list.retain(|one| one.severity == Severity::Error);
+            let ill_formed = ILL_FORMED.iter().any(|ending| file.ends_with(ending));
+            assert!(!ill_formed || diagnostics.has_errors(), "{} is all right", file.display());
+            diagnostics.list.retain(|one| !ill_formed || one.code != "E0801");
             wrong.push(render::concise(&diagnostics, &sources));
         }
     }
@@ -141,8 +150,8 @@ fn multi_agent_domains_have_no_errors() {
     assert_eq!(wrong.concat(), "");
 }
 
-/// What these need is not read yet: methods.
-const LATER: [&str; 1] = ["E0901"];
+/// Domains that name actions with too few arguments, as the corpus says itself.
+const ILL_FORMED: [&str; 2] = ["boxpushing/domain_v2.pddl", "notation/t15_arity.pddl"];
 
 #[test]
 fn bad_files_have_the_one_message_that_is_wanted() {
@@ -151,9 +160,6 @@ fn bad_files_have_the_one_message_that_is_wanted() {
     let mut checked = 0;
     for case in cases(&folder.join("expectations.json")) {
         let code = case["code"].as_str().expect("a case has a code");
-        if LATER.contains(&code) {
-            continue;
-        }
         checked += 1;
         let (domain, problem) = pair(&case, &folder, &folder);
         let (diagnostics, sources) = read(&domain, &problem);

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use lang::annotation;
 use lang::lexer::{TokenKind, lex};
 use lang::source::Sources;
 use proptest::prelude::*;
@@ -13,28 +14,12 @@ fn format(text: &str) -> String {
 }
 
 /// All words, parentheses and comments; of annotations what stands in them, since their lines may be cut differently.
-fn tokens(text: &str) -> Vec<String> {
-    let words = |text: &str| -> Vec<String> {
-        let words = lex(text).into_iter().filter(|token| token.kind != TokenKind::Space);
-        let slice = |range: std::ops::Range<usize>| text[range].trim_end().to_owned();
-        words.map(|token| slice(token.start as usize..token.end as usize)).collect()
-    };
-    let inner = |word: String| match word.strip_prefix(";@") {
-        Some(inner) => words(&quoted(inner)),
-        None => vec![word],
-    };
-    words(text).into_iter().flat_map(inner).collect()
-}
-
-/// The text with one letter for each in quotes.
-fn quoted(text: &str) -> String {
-    let (mut within, mut remark) = (false, false);
-    let letter = |letter| {
-        within ^= letter == '"' && !remark;
-        remark |= letter == ';' && !within;
-        if within && letter != '"' { char::from(b'a' + letter as u8 % 26) } else { letter }
-    };
-    text.chars().map(letter).collect()
+fn tokens(text: &str) -> Vec<&str> {
+    let words = lex(text).into_iter().filter(|token| token.kind != TokenKind::Space);
+    words
+        .map(|token| text[token.start as usize..token.end as usize].trim_end())
+        .flat_map(|word| annotation::words(word).unwrap_or_else(|| vec![word]))
+        .collect()
 }
 
 /// All annotations with their places, and what is wrong with them.
@@ -166,6 +151,22 @@ fn nothing_stays_nothing() {
     assert_eq!(format(""), "");
     assert_eq!(format("\u{feff} \r\n"), "");
     assert_eq!(format("; only\r\n"), "; only\n");
+}
+
+#[test]
+fn a_carriage_return_alone_ends_a_line() {
+    assert_eq!(format("(a (b ; c\rd))\re"), "(a (b ; c\n  d))\ne\n");
+}
+
+#[test]
+fn a_line_end_that_is_not_kept_changes_nothing() {
+    let start = "(and-then-something-that-is-long (with-more-in-it ?and-more) (and-still-more) ";
+    for list in ["(p\n)", "(\np)", "(a -\nb)", "(a\n- b)", "(:action\nb)", "(:task a :x\n(b))"] {
+        let flat = list.replace("\n", " ").replace("( ", "(").replace(" )", ")");
+        let broken = format(&format!("{start}{list})"));
+        assert_eq!(broken, format(&format!("{start}{flat})")), "{list}");
+        assert_eq!(broken, format(&broken), "{list}");
+    }
 }
 
 #[test]

@@ -5,11 +5,21 @@ use lang::lint;
 use lang::render;
 use lang::source::Sources;
 
-/// The first example of a page that is a whole file.
-fn example(page: &str) -> Option<&str> {
-    let block = page.split("```lisp\n").nth(1)?;
-    let text = block.split("```").next()?;
-    text.starts_with("(def").then_some(text)
+/// The first examples of a page that are whole files: a domain, a problem of the kitchen, or a domain and a problem of it.
+fn example(page: &str) -> Vec<&str> {
+    let blocks = page.split("```lisp\n").skip(1).filter_map(|block| block.split("```").next());
+    let files: Vec<&str> = blocks.take_while(|text| text.starts_with("(def")).collect();
+    match files.as_slice() {
+        [domain, problem, ..] if !is_problem(domain) && is_problem(problem) => {
+            vec![*domain, *problem]
+        }
+        [first, ..] => vec![*first],
+        [] => Vec::new(),
+    }
+}
+
+fn is_problem(text: &str) -> bool {
+    text.starts_with("(define (problem")
 }
 
 #[test]
@@ -35,18 +45,29 @@ fn codes_and_names_are_unique() {
 fn every_example_gives_its_message() {
     let mut examples = 0;
     for rule in RULES {
-        let Some(text) = example(rule.page) else { continue };
+        let texts = example(rule.page);
+        let Some(&last) = texts.last() else { continue };
         examples += 1;
         let mut sources = Sources::default();
-        let kitchen = sources.add("domain.pddl", include_str!("fixtures/domain.pddl"));
-        let file = sources.add(format!("{}.pddl", rule.name), text);
-        let (uses, lints, mut diagnostics) = if text.starts_with("(define (problem") {
-            let (domain, _) = lang::read_domain(&sources, kitchen);
-            let (problem, diagnostics) = lang::read_problem(&sources, file, &domain);
-            (problem.uses.clone(), lint::problem(&domain, &problem), diagnostics)
+        let kitchen = ("domain.pddl".to_owned(), include_str!("fixtures/kitchen.pddl"));
+        let (domain, problem) = match texts.as_slice() {
+            [domain, problem] => (("domain.pddl".to_owned(), *domain), Some(*problem)),
+            [problem] if is_problem(problem) => (kitchen, Some(*problem)),
+            _ => ((format!("{}.pddl", rule.name), last), None),
+        };
+        let id = sources.add(domain.0, domain.1);
+        let (domain, mut diagnostics) = lang::read_domain(&sources, id);
+        let (uses, lints) = if let Some(problem) = problem {
+            let id = sources.add(format!("{}.pddl", rule.name), problem);
+            let (problem, more) = lang::read_problem(&sources, id, &domain);
+            diagnostics.append(more);
+            let mut lints = lint::problem(&domain, &problem);
+            lints.append(lint::text(&sources, id, &domain));
+            (problem.uses, lints)
         } else {
-            let (domain, diagnostics) = lang::read_domain(&sources, file);
-            (domain.uses.clone(), lint::domain(&domain), diagnostics)
+            let mut lints = lint::domain(&domain);
+            lints.append(lint::text(&sources, id, &domain));
+            (domain.uses, lints)
         };
         // What reading does not say, the lints say, or else whoever is to run the file.
         for more in [lints, lang::refusals(&uses)] {
@@ -60,7 +81,7 @@ fn every_example_gives_its_message() {
             "{rendered}"
         );
         assert!(!diagnostics.list.is_empty(), "the example of {} gives no message", rule.code);
-        insta::assert_snapshot!(rule.code, format!("{text}\n{rendered}"));
+        insta::assert_snapshot!(rule.code, format!("{}\n{rendered}", texts.join("\n")));
     }
     assert!(examples > 30, "only {examples} pages have examples");
 }

@@ -6,6 +6,7 @@
 use super::expression::{Expression, Item, Value};
 use super::kind;
 use crate::diagnostic::{Diagnostic, loose_annotation, unbalanced_annotation};
+use crate::lexer::line_ends;
 use crate::source::Span;
 use crate::tree::{Node, NodeId, NodeKind, Tree};
 
@@ -73,12 +74,6 @@ fn continues(tree: &Tree<'_>, at: usize) -> bool {
         && line_ends(tree.slice(NodeId(at as u32 + 1))) == 1
 }
 
-/// How many lines end in `blanks`, whichever of the three kinds of line end they have.
-pub fn line_ends(blanks: &str) -> usize {
-    let count = |wanted| blanks.bytes().filter(|&byte| byte == wanted).count();
-    count(b'\n').max(count(b'\r'))
-}
-
 /// The s-expressions of a run.
 #[derive(Debug, Default)]
 pub struct Content {
@@ -99,6 +94,8 @@ enum TokenKind {
     Text,
     /// With a quote at its beginning alone.
     OpenText,
+    /// From its `;` to the end of the line.
+    Remark,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -109,50 +106,59 @@ struct Token {
     first: bool,
 }
 
-fn is_blank(letter: char) -> bool {
-    letter.is_whitespace() || letter == '\u{feff}'
+/// The words, parentheses, texts and remarks of a comment; nothing if it does not begin with `;@`.
+pub fn words(comment: &str) -> Option<Vec<&str>> {
+    comment.strip_prefix(OPENING).map(|inner| {
+        let mut at = 0;
+        std::iter::from_fn(|| lex(inner, &mut at)).map(|(_, word)| word).collect()
+    })
 }
 
-/// Cuts one line of a run into tokens; remarks are left out.
-fn lex(tree: &Tree<'_>, line: NodeId, tokens: &mut Vec<Token>) {
-    let (text, start) = (tree.slice(line), tree.span(line).start);
-    let before = tokens.len();
-    let mut at = OPENING.len();
-    while let Some(first) = text[at..].chars().next() {
-        let rest = &text[at..];
-        let (kind, length) = match first {
-            ';' => return,
-            _ if is_blank(first) => {
-                at += first.len_utf8();
-                continue;
+/// Reads the next token of a line from `at` on.
+fn lex<'a>(line: &'a str, at: &mut usize) -> Option<(TokenKind, &'a str)> {
+    let blank = |letter: char| letter.is_whitespace() || letter == '\u{feff}';
+    let rest = line[*at..].trim_start_matches(blank);
+    let first = rest.chars().next()?;
+    let (kind, length) = match first {
+        ';' => (TokenKind::Remark, rest.trim_end().len()),
+        '(' => (TokenKind::Open, 1),
+        ')' => (TokenKind::Close, 1),
+        '"' => match rest[1..].find('"') {
+            Some(length) => (TokenKind::Text, length + 2),
+            None => (TokenKind::OpenText, rest.trim_end().len()),
+        },
+        _ => {
+            let ends = |letter| blank(letter) || matches!(letter, '(' | ')' | ';' | '"' | '?');
+            let skip = first.len_utf8();
+            (TokenKind::Word, rest[skip..].find(ends).map_or(rest.len(), |end| skip + end))
+        }
+    };
+    *at = line.len() - rest.len() + length;
+    Some((kind, &rest[..length]))
+}
+
+/// The tokens of a run without its remarks.
+fn tokens(tree: &Tree<'_>, run: &Run) -> Vec<Token> {
+    let mut tokens = Vec::new();
+    for &line in &run.lines {
+        let inner = &tree.slice(line)[OPENING.len()..];
+        let start = tree.span(line).start + OPENING.len() as u32;
+        let (mut at, mut first) = (0, true);
+        while let Some((kind, word)) = lex(inner, &mut at) {
+            let end = start + at as u32;
+            let span = Span::new(tree.source, end - word.len() as u32, end);
+            if kind != TokenKind::Remark {
+                tokens.push(Token { kind, span, first });
             }
-            '(' => (TokenKind::Open, 1),
-            ')' => (TokenKind::Close, 1),
-            '"' => match rest[1..].find('"') {
-                Some(length) => (TokenKind::Text, length + 2),
-                None => (TokenKind::OpenText, rest.trim_end().len()),
-            },
-            _ => {
-                let ends = |letter: char| {
-                    is_blank(letter) || matches!(letter, '(' | ')' | ';' | '"' | '?')
-                };
-                let skip = first.len_utf8();
-                (TokenKind::Word, rest[skip..].find(ends).map_or(rest.len(), |end| skip + end))
-            }
-        };
-        let from = start + at as u32;
-        let span = Span::new(tree.source, from, from + length as u32);
-        tokens.push(Token { kind, span, first: tokens.len() == before });
-        at += length;
+            first = false;
+        }
     }
+    tokens
 }
 
 /// Reads what a run says.
 pub fn content(tree: &Tree<'_>, run: &Run) -> Content {
-    let mut tokens = Vec::new();
-    for &line in &run.lines {
-        lex(tree, line, &mut tokens);
-    }
+    let tokens = tokens(tree, run);
     let content = parse(tree, &tokens, false);
     match content.fault {
         // Where something is open at the end, a known kind at the beginning of a line shows where that should have ended.
@@ -211,6 +217,7 @@ impl Reader<'_, '_> {
                 self.push(Value::List, token.span);
             }
             TokenKind::Close => self.close(token.span),
+            TokenKind::Remark => {}
             _ if self.open.is_empty() => {
                 let line = self.content.loose.is_none().then(|| self.loose(token));
                 self.content.loose = self.content.loose.take().or(line);

@@ -1,17 +1,19 @@
 //! Domains.
 
+use super::condition::Setting;
 use super::index::Index;
 use super::requirement::{self, Need};
 use super::scope::{self, Bindings};
-use super::{Names, Report, World, condition, effect, hierarchy, name};
-use crate::ast::{self, DomainSection, Head, Name, TypedList};
-use crate::diagnostic::{Diagnostics, derived_effect, duplicate_definition, unused_parameter};
+use super::{Names, Report, World, action, agents, condition, effect, hierarchy, name, network};
+use crate::ast::{self, ActionKind, DomainSection, Feature, Head, Name, TypeReference, TypedList};
+use crate::diagnostic::{Diagnostics, derived_effect, duplicate_definition, unknown_type};
 use crate::model::{
-    Action, Axiom, Domain, Formula, Function, FunctionId, Object, ObjectId, Predicate, PredicateId,
-    Variable,
+    Action, Axiom, Domain, Formula, Function, FunctionId, Object, ObjectId, Owner, Predicate,
+    PredicateId, TypeId, Variable,
 };
+use crate::near::nearest;
 use crate::source::Span;
-use crate::symbol::{Namespace, Occurrences, Role, Symbol};
+use crate::symbol::{Namespace, Occurrences, Role};
 
 /// Resolves a domain.
 pub fn domain(
@@ -19,13 +21,18 @@ pub fn domain(
     diagnostics: &mut Diagnostics,
     occurrences: Option<&mut Occurrences>,
 ) -> Domain {
-    let requirements = ast.sections.iter().filter_map(|section| match section {
-        DomainSection::Requirements(names) => Some(names.iter().copied()),
-        _ => None,
-    });
-    let flags = requirement::read(requirements.flatten(), diagnostics);
-    let mut report = Report::new(diagnostics, flags, occurrences);
+    let sections = || {
+        ast.sections.iter().filter_map(|section| match section {
+            DomainSection::Requirements(names) => Some(names),
+            _ => None,
+        })
+    };
+    let flags = requirement::read(sections().flatten().copied(), diagnostics);
+    let place = requirement::place(sections().flatten().last().copied(), ast.name);
+    let mut report = Report::new(diagnostics, flags, place, occurrences);
     report.declared_here(ast.name, Namespace::Domain);
+    let declares = |section: &_| matches!(section, DomainSection::Predicates(_));
+    report.blind = ast.name.text.is_empty() && !ast.sections.iter().any(declares);
     let mut names = Names::default();
     let lists: Vec<&TypedList<'_>> = ast
         .sections
@@ -47,42 +54,69 @@ pub fn domain(
         functions: Vec::new(),
         axioms: Vec::new(),
         actions: Vec::new(),
+        signatures: Vec::new(),
+        preferences: Vec::new(),
         uses: Vec::new(),
     };
     declarations(ast, &mut domain, &mut names, &mut report);
-    let (mut axioms, mut actions) = (Vec::new(), Vec::new());
-    let mut action_names = Index::default();
+    action::signatures(ast, &mut domain, &mut names, &mut report);
     let world = World {
         domain: &domain,
         objects: &domain.constants,
         names: &names,
         places: "`:constants`",
     };
-    for section in &ast.sections {
-        match section {
-            DomainSection::Derived(derived) => axioms.extend(axiom(derived, &world, &mut report)),
-            DomainSection::Action(read) => {
-                if let Some(first) = action_names.find(read.name.text) {
-                    let first: &Action = &actions[first as usize];
-                    report.declared(read.name, Symbol::at(Namespace::Action, first.name.span));
-                    report_duplicate("action", read.name, "", first.name.span, &mut report);
-                } else if !read.name.text.is_empty() {
-                    action_names.insert(read.name.text, actions.len() as u32);
-                    report.declared_here(read.name, Namespace::Action);
-                }
-                actions.push(action(read, &world, &mut report));
-            }
-            DomainSection::Unread(unread) => report.uses(unread),
-            _ => {}
-        }
-    }
+    let (axioms, actions) = rules(ast, &world, &mut report);
     for axiom in &axioms {
         domain.predicates[axiom.head.index()].derived = true;
     }
     changed_derived(&domain, &axioms, &actions, &mut report);
-    let uses = report.uses;
-    (domain.axioms, domain.actions, domain.uses) = (axioms, actions, uses);
+    for (function, span) in std::mem::take(&mut report.read) {
+        domain.functions[function.index()].read = Some(span);
+    }
+    for function in std::mem::take(&mut report.assigned) {
+        domain.functions[function.index()].assigned = true;
+    }
+    // What has been said to be missing is not said again of a problem.
+    report.declare(report.missing);
+    domain.requirements = report.declared.requirements();
+    (domain.preferences, domain.uses) = (report.preferences, report.uses);
+    (domain.axioms, domain.actions) = (axioms, actions);
     domain
+}
+
+/// What can happen and what follows: actions of all kinds, axioms, methods and constraints.
+fn rules<'a>(
+    ast: &ast::Domain<'a>,
+    world: &World<'_, 'a>,
+    report: &mut Report<'_>,
+) -> (Vec<Axiom>, Vec<Action>) {
+    let (mut axioms, mut actions) = (Vec::new(), Vec::new());
+    let (mut constraints, mut dependences) = (Vec::new(), Vec::new());
+    for section in &ast.sections {
+        match section {
+            DomainSection::Derived(derived) => axioms.extend(axiom(derived, world, report)),
+            DomainSection::Axiom(axiom) => old_axiom(axiom, world, report),
+            DomainSection::Action(read) => actions.extend(action::action(read, world, report)),
+            DomainSection::Method(method) => network::method(method, world, report),
+            DomainSection::Constraints(keyword, formulas) => {
+                report.need(Need::Constraint, keyword.span);
+                report.uses(Feature::Constraints, keyword.span);
+                let mut bindings = Bindings::new("`:constraints`".to_owned());
+                for formula in formulas {
+                    condition::check(formula, 0, Setting::Plan, &mut bindings, world, report);
+                }
+            }
+            DomainSection::Concurrency(constraint) => constraints.push(constraint),
+            DomainSection::Dependence(keyword, names) => {
+                dependences.push((*keyword, names.as_slice()));
+            }
+            DomainSection::Unread(unread) => report.uses(unread.feature, unread.keyword.span),
+            _ => {}
+        }
+    }
+    agents::constraints(&constraints, &dependences, world, report);
+    (axioms, actions)
 }
 
 /// Reports effects on predicates that are derived.
@@ -125,35 +159,20 @@ fn declarations<'a>(
             DomainSection::Constants(list) => {
                 objects(list, "constant", "`:types`", &mut domain.constants, names, report);
             }
-            DomainSection::Predicates(heads) => {
-                for head in heads {
-                    let id = domain.predicates.len() as u32;
-                    let parameters = parameters(&head.parameters, &names.types, report);
-                    if let Some(first) = names.predicates.find(head.name.text) {
-                        report.declared(head.name, PredicateId(first));
-                        let first = &domain.predicates[first as usize];
-                        let detail = difference(first.parameters.len(), parameters.len());
-                        report_duplicate("predicate", head.name, &detail, first.name.span, report);
-                        continue;
+            DomainSection::Predicates(parts) => {
+                for part in parts {
+                    let owner = agents::owner(part, names, report);
+                    for head in &part.heads {
+                        predicate(head, owner.as_ref(), domain, names, report);
                     }
-                    names.predicates.insert(head.name.text, id);
-                    report.declared(head.name, PredicateId(id));
-                    domain.predicates.push(Predicate {
-                        name: name(head.name),
-                        parameters,
-                        derived: false,
-                    });
                 }
             }
             DomainSection::Functions(groups) => {
                 for group in groups {
-                    let numeric =
-                        group.types.as_ref().is_none_or(|types| types.names[0].is("number"));
-                    if !numeric {
-                        names.object_functions = true;
-                        hierarchy::resolve(group.types.as_ref(), &names.types, "`:types`", report);
+                    let values = values(group.types.as_ref(), names, report);
+                    for head in &group.heads {
+                        function(head, values.clone(), domain, names, report);
                     }
-                    group.heads.iter().for_each(|head| function(head, domain, names, report));
                 }
             }
             _ => {}
@@ -161,8 +180,51 @@ fn declarations<'a>(
     }
 }
 
+fn predicate<'a>(
+    head: &Head<'a>,
+    owner: Option<&(String, Owner)>,
+    domain: &mut Domain,
+    names: &mut Names<'a>,
+    report: &mut Report<'_>,
+) {
+    let id = domain.predicates.len() as u32;
+    let parameters = parameters(&head.parameters, &names.types, report);
+    if let Some(first) = names.predicates.find(head.name.text) {
+        report.declared(head.name, PredicateId(first));
+        let first = &domain.predicates[first as usize];
+        let detail = difference(first.parameters.len(), parameters.len());
+        return report_duplicate("predicate", head.name, &detail, first.name.span, report);
+    }
+    names.predicates.insert(head.name.text, id);
+    report.declared(head.name, PredicateId(id));
+    let owner = owner.map(|(variable, owner)| {
+        let is = |parameter: &Variable| parameter.name.text.eq_ignore_ascii_case(variable);
+        Owner { position: parameters.iter().position(is), ..owner.clone() }
+    });
+    domain.predicates.push(Predicate { name: name(head.name), parameters, derived: false, owner });
+}
+
+/// The types of the objects that functions have as values; none if they are numbers.
+fn values(
+    types: Option<&TypeReference<'_>>,
+    names: &Names<'_>,
+    report: &mut Report<'_>,
+) -> Option<Vec<TypeId>> {
+    let types = types.filter(|types| !types.names[0].is("number"))?;
+    let first = types.names[0];
+    if names.types.find(first.text).is_some() {
+        report.need(Need::ObjectFluent, first.span);
+    } else if nearest(first.text, ["number"]).is_some() {
+        let near = Some("number");
+        report.push(unknown_type::unknown_type(first.text, first.span, "`:types`", near));
+        return None;
+    }
+    Some(hierarchy::resolve(Some(types), &names.types, "`:types`", report))
+}
+
 fn function<'a>(
     head: &Head<'a>,
+    values: Option<Vec<TypeId>>,
     domain: &mut Domain,
     names: &mut Names<'a>,
     report: &mut Report<'_>,
@@ -178,7 +240,8 @@ fn function<'a>(
     }
     names.functions.insert(head.name.text, id);
     report.declared(head.name, FunctionId(id));
-    domain.functions.push(Function { name: name(head.name), parameters });
+    let name = name(head.name);
+    domain.functions.push(Function { name, parameters, values, read: None, assigned: false });
 }
 
 /// How two declarations of one name differ.
@@ -191,7 +254,11 @@ fn difference(first: usize, second: usize) -> String {
 }
 
 /// The parameters of a declaration. A name that stands twice does no harm there.
-fn parameters(list: &TypedList<'_>, types: &Index<'_>, report: &mut Report<'_>) -> Vec<Variable> {
+pub(super) fn parameters(
+    list: &TypedList<'_>,
+    types: &Index<'_>,
+    report: &mut Report<'_>,
+) -> Vec<Variable> {
     let mut parameters = Vec::with_capacity(list.len());
     for group in &list.groups {
         let ids = hierarchy::resolve(group.types.as_ref(), types, "`:types`", report);
@@ -233,6 +300,9 @@ pub(super) fn objects<'a>(
             table.push(Object { name: name(spelling), types: types.clone() });
         }
     }
+    if !list.private.is_empty() {
+        agents::private_objects(list, what, place, table, names, report);
+    }
 }
 
 fn axiom<'a>(
@@ -251,6 +321,7 @@ fn axiom<'a>(
         if declared.len() != bindings.scope.variables.len() {
             let callee = scope::Callee::predicate(predicate, world);
             callee.report_arity(
+                &[],
                 bindings.scope.variables.len(),
                 derived.head.place.0,
                 world,
@@ -267,58 +338,24 @@ fn axiom<'a>(
         }
     }
     let body = match &derived.body {
-        Some(body) => condition::check(body, 0, &mut bindings, world, report),
+        Some(body) => condition::check(body, 0, Setting::State, &mut bindings, world, report),
         None => Formula::truth(derived.place.0),
     };
     Some(Axiom { head: predicate?, scope: bindings.scope, body, span: derived.place.0 })
 }
 
-fn action<'a>(action: &ast::Action<'a>, world: &World<'_, 'a>, report: &mut Report<'_>) -> Action {
-    let span = action.place.0;
-    let mut bindings = Bindings::new(format!("action `{}`", action.name));
-    bindings.bind(&action.parameters, world, report);
-    bindings.scope.parameters = bindings.scope.variables.len() as u32;
-    if !action.unread.is_empty() {
-        // A field that is not read may bind variables, so nothing can be said about the rest.
-        action.unread.iter().for_each(|unread| report.uses(unread));
-        let precondition = Formula::truth(span);
-        let (effects, increases) = (Vec::new(), Vec::new());
-        return Action {
-            name: name(action.name),
-            scope: bindings.scope,
-            precondition,
-            effects,
-            increases,
-            span,
-        };
+/// An axiom of PDDL 1.2, which is checked and cannot be run.
+fn old_axiom<'a>(axiom: &ast::Axiom<'a>, world: &World<'_, 'a>, report: &mut Report<'_>) {
+    report.need(Need::Derived, axiom.keyword.span);
+    report.uses(Feature::Axioms, axiom.keyword.span);
+    let mut bindings = Bindings::new("the axiom".to_owned());
+    bindings.bind(&axiom.variables, world, report);
+    if let Some(context) = &axiom.context {
+        condition::check(context, 0, Setting::State, &mut bindings, world, report);
     }
-    let mut conditions = Vec::new();
-    for formula in &action.preconditions {
-        conditions.push(condition::check(formula, 0, &mut bindings, world, report));
-    }
-    let (effects, increases) = effect::check(&action.effects, span, &mut bindings, world, report);
-    if !bindings.unsure {
-        let parameters = bindings.scope.parameters as usize;
-        for (variable, _) in bindings.scope.variables[..parameters]
-            .iter()
-            .zip(&bindings.used)
-            .filter(|(_, used)| !**used)
-        {
-            let owner = &bindings.owner;
-            report.push(unused_parameter::unused_parameter(
-                &variable.name.text,
-                owner,
-                variable.name.span,
-            ));
-        }
-    }
-    let precondition = condition::conjoin(conditions, span);
-    Action {
-        name: name(action.name),
-        scope: bindings.scope,
-        precondition,
-        effects,
-        increases,
-        span,
+    if let Some(implies) = &axiom.implies {
+        let formulas = std::slice::from_ref(implies);
+        let kind = ActionKind::Instant;
+        effect::check(formulas, kind, axiom.keyword.span, &mut bindings, world, report);
     }
 }

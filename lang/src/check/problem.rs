@@ -7,16 +7,24 @@ use rustc_hash::FxHasher;
 
 use std::hash::{Hash, Hasher};
 
-use super::requirement::{self, Flags};
+use super::condition::Setting;
+use super::record::Reading;
+use super::requirement::{self, Flags, Need};
 use super::scope::{self, Bindings, Callee};
-use super::{Names, Report, World, condition, domain, name};
-use crate::ast::{self, EntryKind, ProblemSection};
+use super::value::{self, Value};
+use super::{Names, Report, World, agents, condition, domain, name, network};
+use crate::ast::{self, EntryKind, Feature, ProblemSection};
 use crate::diagnostic::{
     Diagnostics, domain_name_mismatch, unexpected_item, uninitialised_function, variable_in_init,
+    wrong_value,
 };
-use crate::model::{Domain, Fact, Formula, FunctionValue, Metric, ObjectId, Problem, Use};
+use crate::model::{
+    Doing, Domain, Expression, Fact, Formula, FunctionId, FunctionValue, Metric, ObjectId, Problem,
+    Use,
+};
 use crate::source::Span;
 use crate::symbol::{Namespace, Occurrences, Role, Symbol};
+use crate::syntax;
 
 /// Resolves a problem against its domain.
 pub fn problem(
@@ -25,12 +33,15 @@ pub fn problem(
     diagnostics: &mut Diagnostics,
     occurrences: Option<&mut Occurrences>,
 ) -> Problem {
-    let requirements = ast.sections.iter().filter_map(|section| match section {
-        ProblemSection::Requirements(names) => Some(names.iter().copied()),
-        _ => None,
-    });
-    let declared = requirement::read(requirements.flatten(), diagnostics);
-    let mut report = Report::new(diagnostics, declared, occurrences);
+    let sections = || {
+        ast.sections.iter().filter_map(|section| match section {
+            ProblemSection::Requirements(names) => Some(names),
+            _ => None,
+        })
+    };
+    let declared = requirement::read(sections().flatten().copied(), diagnostics);
+    let place = requirement::place(sections().flatten().last().copied(), ast.name);
+    let mut report = Report::new(diagnostics, declared, place, occurrences);
     report.declared_here(ast.name, Namespace::Problem);
     report.declare(Flags::from_model(&domain.requirements));
     // A domain that has types has been told already if it does not say so.
@@ -39,6 +50,7 @@ pub fn problem(
     }
     // Without a domain no name can be called unknown.
     report.blind = domain.name.text.is_empty() && domain.predicates.is_empty();
+    report.preferences.clone_from(&domain.preferences);
     let mut names = table(domain);
     let mut problem = Problem {
         name: name(ast.name),
@@ -71,7 +83,7 @@ pub fn problem(
                 let mismatch = domain_name_mismatch::domain_name_mismatch;
                 report.push(mismatch(asked.text, asked.span, &domain.name.text, domain.name.span));
             }
-            ProblemSection::Unread(unread) => report.uses(unread),
+            ProblemSection::Unread(unread) => report.uses(unread.feature, unread.keyword.span),
             _ => {}
         }
     }
@@ -85,7 +97,7 @@ pub fn problem(
 
 /// The names of the domain.
 fn table(domain: &Domain) -> Names<'_> {
-    let mut names = Names { object_functions: !domain.functions.is_empty(), ..Names::default() };
+    let mut names = Names::default();
     for (id, of) in domain.types.iter().enumerate() {
         names.types.insert(&of.name.text, id as u32);
     }
@@ -98,10 +110,14 @@ fn table(domain: &Domain) -> Names<'_> {
     for (id, of) in domain.constants.iter().enumerate() {
         names.objects.insert(&of.name.text, id as u32);
     }
+    for (id, of) in domain.signatures.iter().enumerate() {
+        let table = if of.doing == Doing::Task { &mut names.tasks } else { &mut names.actions };
+        table.insert(&of.name.text, id as u32);
+    }
     names
 }
 
-/// The initial state, the goal and the metric.
+/// The initial state, the goal, the constraints and the metric.
 fn contents<'a>(
     ast: &ast::Problem<'a>,
     world: &World<'_, 'a>,
@@ -110,18 +126,39 @@ fn contents<'a>(
 ) {
     let mut state = State { seen: HashTable::new(), valued: HashTable::new(), world, report };
     let mut goal = None;
-    let mut metric = None;
+    let mut metrics = Vec::new();
     for section in &ast.sections {
         match section {
             ProblemSection::Init(init) => state.init(init, problem),
-            ProblemSection::Goal(formulas) => {
+            ProblemSection::Goal(read) => {
                 let (conditions, bindings): &mut (Vec<Formula>, Bindings<'a>) =
                     goal.get_or_insert_with(|| (Vec::new(), Bindings::new("the goal".to_owned())));
-                for formula in formulas {
-                    conditions.push(condition::check(formula, 0, bindings, world, state.report));
+                if let Some(agent) = &read.agent {
+                    agents::agent(agent, bindings, world, state.report);
+                }
+                for formula in &read.formulas {
+                    let setting = Setting::State;
+                    conditions.push(condition::check(
+                        formula,
+                        0,
+                        setting,
+                        bindings,
+                        world,
+                        state.report,
+                    ));
                 }
             }
-            ProblemSection::Metric(function, place) => metric = Some((*function, place.0)),
+            ProblemSection::Constraints(keyword, formulas) => {
+                state.report.need(Need::Constraint, keyword.span);
+                state.report.uses(Feature::Constraints, keyword.span);
+                let mut bindings = Bindings::new("`:constraints`".to_owned());
+                for formula in formulas {
+                    let setting = Setting::Plan;
+                    condition::check(formula, 0, setting, &mut bindings, world, state.report);
+                }
+            }
+            ProblemSection::Network(asked) => network::initial(asked, world, state.report),
+            ProblemSection::Metric(metric) => metrics.push(metric),
             _ => {}
         }
     }
@@ -135,33 +172,67 @@ fn contents<'a>(
         report
             .push(unexpected_item::missing_item("a `(:goal …)` in the problem", problem.name.span));
     }
-    if let Some((spelling, span)) = metric {
-        problem.metric = read_metric(spelling, span, world, problem, report);
+    for metric in metrics {
+        problem.metric = read_metric(metric, world, report).or(problem.metric.take());
     }
+    uninitialised(world.domain, problem, report);
 }
 
-fn read_metric(
-    spelling: ast::Name<'_>,
-    span: Span,
-    world: &World<'_, '_>,
-    problem: &Problem,
+/// What a metric asks for, if it is to minimise a function without parameters; else its use is noted.
+fn read_metric<'a>(
+    metric: &ast::Metric<'a>,
+    world: &World<'_, 'a>,
     report: &mut Report<'_>,
 ) -> Option<Metric> {
-    if spelling.is("total-time") && world.names.functions.find(spelling.text).is_none() {
-        let feature = ast::Feature::Metrics;
-        report.uses(&ast::Unread { feature, keyword: spelling, node: spelling });
-        return None;
+    let mut bindings = Bindings::new("the metric".to_owned());
+    if let Some(agent) = &metric.agent {
+        agents::agent(agent, &mut bindings, world, report);
     }
-    let function = scope::function(spelling, world, report)?;
-    let callee = Callee::function(function, world);
-    if !callee.parameters.is_empty() {
-        callee.report_arity(0, span, world, report);
+    let formula = metric.value.as_ref()?;
+    let span = formula.nodes[0].place.0;
+    report.metric = true;
+    report.reading = Reading::Asked;
+    let value = value::check(formula, 0, &mut bindings, world, report);
+    (report.metric, report.reading) = (false, Reading::Beside);
+    value::number(&value, span, "`:metric`", world, report);
+    let function = match value {
+        Value::Number(Some(Expression::Function(function, terms))) if terms.is_empty() => function,
+        Value::Number(_) => {
+            report.uses(Feature::Metrics, metric.keyword.span);
+            return None;
+        }
+        _ => return None,
+    };
+    if !metric.direction.is("minimize") || metric.agent.is_some() {
+        report.uses(Feature::Metrics, metric.keyword.span);
         return None;
-    }
-    if !problem.values.iter().any(|value| value.function == function) {
-        report.push(uninitialised_function::uninitialised_function(spelling.text, span));
     }
     Some(Metric { function, span })
+}
+
+/// Warns of functions whose values a plan depends on, and that never have one.
+fn uninitialised(domain: &Domain, problem: &Problem, report: &mut Report<'_>) {
+    let mut valued = vec![false; domain.functions.len()];
+    problem.values.iter().for_each(|value| valued[value.function.index()] = true);
+    let here = std::mem::take(&mut report.read);
+    for (index, function) in domain.functions.iter().enumerate() {
+        let id = FunctionId(index as u32);
+        let place = here.get(&id).map(|&span| (span, true));
+        let place = place.or(function.read.map(|span| (span, false)));
+        let Some((span, here)) = place.filter(|_| !valued[index] && !function.assigned) else {
+            continue;
+        };
+        if report.timed.contains(&id) {
+            continue;
+        }
+        let name = &function.name.text;
+        report.push(uninitialised_function::uninitialised_function(
+            name,
+            !function.parameters.is_empty(),
+            span,
+            here,
+        ));
+    }
 }
 
 /// The initial state while it is read.
@@ -178,17 +249,21 @@ impl<'a> State<'_, '_, '_, 'a> {
     fn init(&mut self, init: &ast::Init<'a>, problem: &mut Problem) {
         for entry in &init.entries {
             let span = entry.place.0;
+            if let Some(time) = entry.time {
+                self.report.need(Need::TimedLiteral, time.span);
+                self.report.uses(Feature::TimedLiterals, time.span);
+            }
             match &entry.kind {
-                EntryKind::Fact(fact) => {
+                EntryKind::Fact(fact) if entry.time.is_none() => {
                     if let Some(fact) = self.fact(fact.name, init.arguments(fact), span) {
                         self.add(fact, &mut problem.init);
                     }
                 }
                 // What is not listed is false anyway; the names must be right all the same.
-                EntryKind::Absent(fact) => {
+                EntryKind::Fact(fact) | EntryKind::Absent(fact) => {
                     self.fact(fact.name, init.arguments(fact), span);
                 }
-                EntryKind::Value(function, number) => {
+                EntryKind::Value(function, value) => {
                     let arguments = init.arguments(function);
                     self.report.next(Role::Initial);
                     let Some(id) = scope::function(function.name, self.world, self.report) else {
@@ -196,18 +271,53 @@ impl<'a> State<'_, '_, '_, 'a> {
                     };
                     let arguments =
                         self.arguments(&Callee::function(id, self.world), arguments, span);
-                    let Some(value) = self::number(number.text) else {
-                        self.report.push(unexpected_item::unexpected_item("a number", number.span));
-                        continue;
-                    };
-                    if let Some(arguments) = arguments {
+                    let value = self.value(id, *value);
+                    // What is said of a function in the future is a value all the same.
+                    let later = entry.time.is_some() || value.is_none();
+                    if later {
+                        self.report.timed.insert(id);
+                    }
+                    if let (Some(arguments), Some(value), false) = (arguments, value, later) {
                         let value = FunctionValue { function: id, arguments, value, span };
                         self.set(function.name, value, &mut problem.values);
                     }
                 }
-                EntryKind::Unread(unread) => self.report.uses(unread),
+                EntryKind::Unread(unread) => {
+                    self.report.uses(unread.feature, unread.keyword.span);
+                }
             }
         }
+    }
+
+    /// The number that a function has, or nothing if it has an object or something is wrong.
+    fn value(&mut self, function: FunctionId, value: ast::Name<'a>) -> Option<Decimal> {
+        let numeric = syntax::is_number(value.text);
+        let declared = &self.world.domain.functions[function.index()];
+        let callee = Callee::function(function, self.world).describe();
+        let Some(types) = &declared.values else {
+            if numeric {
+                let number = number(value.text);
+                if number.is_none() {
+                    self.report.push(unexpected_item::unexpected_item("a number", value.span));
+                }
+                return number;
+            }
+            self.report.push(wrong_value::initial(&callee, "a number", value.span));
+            return None;
+        };
+        let wanted = format!("of type `{}`", self.world.describe_types(types));
+        if numeric {
+            self.report.push(wrong_value::initial(&callee, &wanted, value.span));
+        } else if !value.is("undefined")
+            && let Some(object) = scope::object(value, self.world, self.report)
+        {
+            let have = &self.world.objects[object.index()].types;
+            if !self.world.fits(have, true, types) {
+                self.report.push(wrong_value::initial(&callee, &wanted, value.span));
+            }
+        }
+        self.report.uses(Feature::ObjectFluents, value.span);
+        None
     }
 
     fn add(&mut self, fact: Fact, facts: &mut Vec<Fact>) {
@@ -289,7 +399,7 @@ impl<'a> State<'_, '_, '_, 'a> {
             ids.extend(scope::object(spelling, self.world, self.report));
         }
         if spellings.len() != callee.parameters.len() {
-            callee.report_arity(spellings.len(), span, self.world, self.report);
+            callee.report_arity(spellings, spellings.len(), span, self.world, self.report);
             return None;
         }
         if ids.len() != spellings.len() {

@@ -1,11 +1,55 @@
-//! Each name that the checker resolves goes in; an [`Occurrence`] of it is kept, if somebody asked for them.
+//! Each name that the checker resolves goes in; what must be known of it afterwards is kept.
 
 use super::Report;
 use crate::ast::Name;
-use crate::model::Variable;
+use crate::diagnostic::unknown_preference;
+use crate::model::{FunctionId, Variable};
+use crate::near::nearest;
+use crate::source::Span;
 use crate::symbol::{Namespace, Occurrence, Role, Symbol};
 
+/// What becomes of the values of functions that are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Reading {
+    /// A plan depends on them.
+    Asked,
+    /// They only count for the cost.
+    #[default]
+    Beside,
+}
+
 impl Report<'_> {
+    /// The value of a function is asked for.
+    pub(super) fn reads(&mut self, function: FunctionId, span: Span) {
+        if self.reading == Reading::Asked {
+            self.read.entry(function).or_insert(span);
+        }
+    }
+
+    /// A preference is named where it is declared.
+    pub(super) fn prefers(&mut self, name: Name<'_>) {
+        self.declared_here(name, Namespace::Preference);
+        let known = self.preferences.iter().any(|known| name.is(&known.text));
+        if !known {
+            self.preferences.push(super::name(name));
+        }
+    }
+
+    /// A preference is named in a metric.
+    pub(super) fn violated(&mut self, name: Name<'_>) {
+        let known = self.preferences.iter().find(|known| name.is(&known.text));
+        if let Some(known) = known {
+            let declared = known.span;
+            return self.found(name, Symbol::at(Namespace::Preference, declared));
+        }
+        self.lost(name, Namespace::Preference);
+        if self.first(&unknown_preference::RULE, name.text) {
+            let near = nearest(name.text, self.preferences.iter().map(|known| known.text.as_str()));
+            let diagnostic = unknown_preference::unknown_preference(name.text, name.span, near);
+            self.push(diagnostic);
+        }
+    }
+
     /// What the next predicate or function that is resolved does there; without this it is read.
     pub(super) fn next(&mut self, role: Role) {
         self.role = role;

@@ -7,6 +7,7 @@ use crate::ast::Name;
 use crate::diagnostic::{Diagnostics, unknown_requirement};
 use crate::model::Requirement;
 use crate::near::nearest;
+use crate::source::Span;
 
 /// A set of flags, with the aggregates taken apart.
 #[derive(Debug, Clone, Copy, Default)]
@@ -24,7 +25,19 @@ const DERIVED: u32 = 1 << 8;
 const COSTS: u32 = 1 << 9;
 const NUMERIC: u32 = 1 << 10;
 const AGENTS: u32 = 1 << 11;
-/// Known by name and without meaning for what is checked so far.
+const OBJECTS: u32 = 1 << 12;
+const DURATIVE: u32 = 1 << 13;
+const INEQUALITIES: u32 = 1 << 14;
+const CONTINUOUS: u32 = 1 << 15;
+const TIMED: u32 = 1 << 16;
+const PREFERENCES: u32 = 1 << 17;
+const CONSTRAINTS: u32 = 1 << 18;
+const PROCESSES: u32 = 1 << 19;
+const HIERARCHY: u32 = 1 << 20;
+/// Each file belongs to one agent.
+const FACTORED: u32 = 1 << 21;
+const NETWORK: u32 = 1 << 22;
+/// Known by name and without meaning for what is checked.
 const OTHER: u32 = 0;
 
 const QUANTIFIED: u32 = EXISTENTIAL | UNIVERSAL;
@@ -48,36 +61,36 @@ const KNOWN: [(&str, u32); 60] = [
     (":domain-axioms", DERIVED),
     (":action-costs", COSTS),
     (":numeric-fluents", NUMERIC),
-    (":fluents", NUMERIC),
-    (":object-fluents", OTHER),
-    (":durative-actions", OTHER),
-    (":duration-inequalities", OTHER),
-    (":continuous-effects", OTHER),
-    (":timed-initial-literals", OTHER),
-    (":timed-initial-fluents", OTHER),
+    (":fluents", NUMERIC | OBJECTS),
+    (":object-fluents", OBJECTS),
+    (":durative-actions", DURATIVE),
+    (":duration-inequalities", DURATIVE | INEQUALITIES),
+    (":continuous-effects", DURATIVE | CONTINUOUS),
+    (":timed-initial-literals", TIMED),
+    (":timed-initial-fluents", TIMED),
     (":timed-effects", OTHER),
-    (":preferences", OTHER),
-    (":constraints", OTHER),
-    (":goal-utilities", OTHER),
-    (":time", OTHER),
-    (":processes", OTHER),
-    (":events", OTHER),
-    (":process", OTHER),
-    (":event", OTHER),
+    (":preferences", PREFERENCES),
+    (":constraints", CONSTRAINTS),
+    (":goal-utilities", NUMERIC),
+    (":time", PROCESSES | CONTINUOUS | NUMERIC),
+    (":processes", PROCESSES),
+    (":events", PROCESSES),
+    (":process", PROCESSES),
+    (":event", PROCESSES),
     (":non-deterministic", OTHER),
     (":probabilistic-effects", OTHER),
     (":rewards", OTHER),
     (":mdp", OTHER),
     (":contingent", OTHER),
     (":partial-observability", OTHER),
-    (":hierarchy", OTHER),
-    (":hierachie", OTHER),
-    (":htn", OTHER),
+    (":hierarchy", HIERARCHY),
+    (":hierachie", HIERARCHY),
+    (":htn", HIERARCHY),
     (":method-preconditions", OTHER),
     (":multi-agent", AGENTS),
-    (":unfactored-privacy", OTHER),
-    (":factored-privacy", OTHER),
-    (":concurrency-network", OTHER),
+    (":unfactored-privacy", AGENTS),
+    (":factored-privacy", AGENTS | FACTORED),
+    (":concurrency-network", NETWORK),
     (":action-expansions", OTHER),
     (":foreach-expansions", OTHER),
     (":dag-expansions", OTHER),
@@ -110,25 +123,14 @@ impl Flags {
         self.0 |= flags.0;
     }
 
+    /// Whether the file belongs to one agent, so that what is private needs no owner.
+    pub(super) fn factored(self) -> bool {
+        self.0 & FACTORED != 0
+    }
+
     /// Those that the model knows.
     pub(super) fn requirements(self) -> BTreeSet<Requirement> {
-        let table = [
-            (STRIPS, Requirement::Strips),
-            (TYPING, Requirement::Typing),
-            (EQUALITY, Requirement::Equality),
-            (NEGATIVE, Requirement::NegativePreconditions),
-            (DISJUNCTIVE, Requirement::DisjunctivePreconditions),
-            (EXISTENTIAL, Requirement::ExistentialPreconditions),
-            (UNIVERSAL, Requirement::UniversalPreconditions),
-            (CONDITIONAL, Requirement::ConditionalEffects),
-            (DERIVED, Requirement::DerivedPredicates),
-            (COSTS, Requirement::ActionCosts),
-        ];
-        table
-            .into_iter()
-            .filter(|(flag, _)| self.0 & flag != 0)
-            .map(|(_, requirement)| requirement)
-            .collect()
+        MODEL.into_iter().filter(|(flag, _)| self.0 & flag != 0).map(|(_, one)| one).collect()
     }
 
     /// That of types alone.
@@ -136,21 +138,36 @@ impl Flags {
 
     /// What the model knows, as a set again.
     pub(super) fn from_model(requirements: &BTreeSet<Requirement>) -> Self {
-        let flag = |requirement: &Requirement| match requirement {
-            Requirement::Strips => STRIPS,
-            Requirement::Typing => TYPING,
-            Requirement::Equality => EQUALITY,
-            Requirement::NegativePreconditions => NEGATIVE,
-            Requirement::DisjunctivePreconditions => DISJUNCTIVE,
-            Requirement::ExistentialPreconditions => EXISTENTIAL,
-            Requirement::UniversalPreconditions => UNIVERSAL,
-            Requirement::ConditionalEffects => CONDITIONAL,
-            Requirement::DerivedPredicates => DERIVED,
-            Requirement::ActionCosts => COSTS,
-        };
-        Self(requirements.iter().map(flag).fold(0, |all, one| all | one))
+        let declared = MODEL.into_iter().filter(|(_, one)| requirements.contains(one));
+        Self(declared.fold(0, |all, (flag, _)| all | flag))
     }
 }
+
+/// The flags that the model knows.
+const MODEL: [(u32, Requirement); 22] = [
+    (STRIPS, Requirement::Strips),
+    (TYPING, Requirement::Typing),
+    (EQUALITY, Requirement::Equality),
+    (NEGATIVE, Requirement::NegativePreconditions),
+    (DISJUNCTIVE, Requirement::DisjunctivePreconditions),
+    (EXISTENTIAL, Requirement::ExistentialPreconditions),
+    (UNIVERSAL, Requirement::UniversalPreconditions),
+    (CONDITIONAL, Requirement::ConditionalEffects),
+    (DERIVED, Requirement::DerivedPredicates),
+    (COSTS, Requirement::ActionCosts),
+    (NUMERIC, Requirement::NumericFluents),
+    (OBJECTS, Requirement::ObjectFluents),
+    (DURATIVE, Requirement::DurativeActions),
+    (INEQUALITIES, Requirement::DurationInequalities),
+    (CONTINUOUS, Requirement::ContinuousEffects),
+    (TIMED, Requirement::TimedInitialLiterals),
+    (PREFERENCES, Requirement::Preferences),
+    (CONSTRAINTS, Requirement::Constraints),
+    (PROCESSES, Requirement::Time),
+    (HIERARCHY, Requirement::Hierarchy),
+    (AGENTS, Requirement::MultiAgent),
+    (FACTORED, Requirement::FactoredPrivacy),
+];
 
 /// Reads the flags. A misspelt one counts as the one that was probably meant.
 pub(super) fn read<'a>(
@@ -173,6 +190,15 @@ pub(super) fn read<'a>(
     flags
 }
 
+/// Where a missing requirement can be written: after the last one, or else after the name of the domain; and whether the list is missing too.
+pub(super) fn place(last: Option<Name<'_>>, domain: Name<'_>) -> (Span, bool) {
+    match last {
+        Some(last) => (Span { start: last.span.end, ..last.span }, false),
+        // The `)` of `(domain NAME)` is the byte after the name, unless somebody left a blank there.
+        None => (Span { start: domain.span.end, ..domain.span }, true),
+    }
+}
+
 /// Something that a requirement allows.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Need {
@@ -185,6 +211,18 @@ pub(super) enum Need {
     ConditionalEffect,
     Derived,
     Costs,
+    NumericCondition,
+    NumericEffect,
+    ObjectFluent,
+    DurativeAction,
+    DurationInequality,
+    ContinuousEffect,
+    TimedLiteral,
+    Preference,
+    Constraint,
+    Process,
+    Hierarchy,
+    Concurrency,
 }
 
 impl Need {
@@ -205,6 +243,26 @@ impl Need {
             }
             Self::Derived => (DERIVED, 0, ":derived-predicates", "a derived predicate"),
             Self::Costs => (COSTS, NUMERIC, ":action-costs", "an action cost"),
+            Self::NumericCondition => (NUMERIC, 0, ":numeric-fluents", "a condition on numbers"),
+            Self::NumericEffect => (NUMERIC, 0, ":numeric-fluents", "a numeric effect"),
+            Self::ObjectFluent => {
+                (OBJECTS, 0, ":object-fluents", "a function with objects as values")
+            }
+            Self::DurativeAction => (DURATIVE, 0, ":durative-actions", "a durative action"),
+            Self::DurationInequality => {
+                (INEQUALITIES, 0, ":duration-inequalities", "a bound on the duration")
+            }
+            Self::ContinuousEffect => (CONTINUOUS, 0, ":continuous-effects", "`#t`"),
+            Self::TimedLiteral => {
+                (TIMED, 0, ":timed-initial-literals", "a fact at a point in time")
+            }
+            Self::Preference => (PREFERENCES, 0, ":preferences", "a preference"),
+            Self::Constraint => {
+                (CONSTRAINTS, PREFERENCES, ":constraints", "a constraint on the whole plan")
+            }
+            Self::Process => (PROCESSES, 0, ":time", "a process or an event"),
+            Self::Hierarchy => (HIERARCHY, 0, ":hierarchy", "a task network"),
+            Self::Concurrency => (NETWORK, 0, ":concurrency-network", "a concurrency constraint"),
         };
         (Flags(flag | others), Flags(flag), name, what)
     }

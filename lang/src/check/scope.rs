@@ -1,15 +1,17 @@
 //! The variables that are bound at a place, and what terms mean there.
 
+use super::agents::{self, Acting};
 use super::index::Index;
 use super::requirement::Need;
 use super::{Report, World, describe_parameters, hierarchy, name};
 use crate::ast::{Name, TypedList};
 use crate::diagnostic::{
-    duplicate_parameter, function_as_predicate, shadowed_variable, type_mismatch, unknown_function,
-    unknown_object, unknown_predicate, unknown_variable, wrong_arity,
+    action_atom_arity, duplicate_parameter, function_as_predicate, predicate_as_function,
+    shadowed_variable, subtask_arity, type_mismatch, unknown_function, unknown_object,
+    unknown_predicate, unknown_variable, wrong_arity,
 };
 use crate::model::{
-    Atom, FunctionId, ObjectId, PredicateId, Scope, Term, TypeId, Variable, VariableId,
+    Atom, FunctionId, ObjectId, PredicateId, Scope, Signature, Term, TypeId, Variable, VariableId,
 };
 use crate::source::Span;
 use crate::symbol::{Namespace, Symbol};
@@ -22,8 +24,16 @@ pub(super) struct Bindings<'a> {
     pub(super) used: Vec<bool>,
     /// Whether something was used that is not bound, or could not be read, so that nothing can be said about what is unused.
     pub(super) unsure: bool,
+    /// Whether a name is bound twice in one list, so that another name that was meant is not bound.
+    pub(super) doubled: bool,
     /// Whose variables these are: "action `drive`".
     pub(super) owner: String,
+    /// Whether `?duration` stands for a number here.
+    pub(super) durative: bool,
+    /// Whether `#t` stands for the time that has passed here.
+    pub(super) continuous: bool,
+    /// Who acts, in MA-PDDL.
+    pub(super) acting: Option<Acting>,
 }
 
 /// What a list of variables hid, to be restored at its end.
@@ -37,7 +47,11 @@ impl<'a> Bindings<'a> {
             visible: Index::default(),
             used: Vec::new(),
             unsure: false,
+            doubled: false,
             owner,
+            durative: false,
+            continuous: false,
+            acting: None,
         }
     }
 
@@ -67,7 +81,7 @@ impl<'a> Bindings<'a> {
                         spelling.span,
                         earlier,
                     ));
-                    self.unsure = true;
+                    (self.unsure, self.doubled) = (true, true);
                 } else {
                     if let Some(outer) = before {
                         // Being hidden explains why it is not used.
@@ -104,6 +118,11 @@ impl<'a> Bindings<'a> {
         }
     }
 
+    /// Whether a variable is bound here.
+    pub(super) fn binds(&self, spelling: Name<'_>) -> bool {
+        self.visible.find(bare(spelling.text)).is_some()
+    }
+
     /// A variable that is bound here.
     fn variable(
         &mut self,
@@ -120,7 +139,7 @@ impl<'a> Bindings<'a> {
         self.unsure = true;
         report.lost(spelling, Namespace::Variable);
         let key = format!("{} in {}", spelling.text, self.owner);
-        if report.first(&unknown_variable::RULE, &key) {
+        if !self.doubled && report.first(&unknown_variable::RULE, &key) {
             let near = report.nearest(bare(spelling.text), &self.visible);
             let near = near.map(|near| format!("?{near}"));
             let variables = self.scope.variables.iter().take(SHOWN);
@@ -170,7 +189,7 @@ impl<'a> Bindings<'a> {
     }
 
     /// The types of a term, and whether it has all of them.
-    fn types<'w>(&'w self, term: Term, world: &World<'w, 'a>) -> (&'w [TypeId], bool) {
+    pub(super) fn types<'w>(&'w self, term: Term, world: &World<'w, 'a>) -> (&'w [TypeId], bool) {
         match term {
             Term::Variable(id) => (&self.scope.variables[id.index()].types, false),
             Term::Object(id) => (&world.objects[id.index()].types, true),
@@ -178,7 +197,7 @@ impl<'a> Bindings<'a> {
     }
 
     /// The arguments of a predicate or a function, if all are right.
-    fn arguments(
+    pub(super) fn arguments(
         &mut self,
         callee: &Callee<'_>,
         spellings: &[Name<'a>],
@@ -191,7 +210,7 @@ impl<'a> Bindings<'a> {
             terms.extend(self.term(spelling, world, report));
         }
         if spellings.len() != callee.parameters.len() {
-            callee.report_arity(spellings.len(), span, world, report);
+            callee.report_arity(spellings, spellings.len(), span, world, report);
             return None;
         }
         if terms.len() != spellings.len() {
@@ -199,7 +218,16 @@ impl<'a> Bindings<'a> {
         }
         for ((&term, &spelling), parameter) in terms.iter().zip(spellings).zip(callee.parameters) {
             let (have, all) = self.types(term, world);
-            if !world.fits(have, all, &parameter.types) {
+            // That another agent acts is a question with an answer for every object that could be the argument.
+            let fits = match callee.what {
+                What::ActionAtom => {
+                    have.is_empty()
+                        || parameter.types.is_empty()
+                        || world.overlap(have, &parameter.types)
+                }
+                _ => world.fits(have, all, &parameter.types),
+            };
+            if !fits {
                 let found = world.describe_types(have);
                 callee.report_type(spelling, &found, &parameter.types, world, report);
                 return None;
@@ -223,6 +251,7 @@ impl<'a> Bindings<'a> {
         };
         let callee = Callee::predicate(predicate, world);
         let arguments = self.arguments(&callee, arguments, span, world, report)?;
+        agents::access(predicate, &arguments, span, self, world, report);
         Some(Atom { predicate, arguments })
     }
 
@@ -262,17 +291,26 @@ const SHOWN: usize = 12;
 
 /// What is applied to arguments.
 pub(super) struct Callee<'w> {
-    what: &'static str,
+    what: What,
     name: &'w str,
     pub(super) parameters: &'w [Variable],
     declared: Span,
+}
+
+/// Which kind of thing that is.
+#[derive(Clone, Copy)]
+enum What {
+    Predicate,
+    Function,
+    ActionAtom,
+    Task,
 }
 
 impl<'w> Callee<'w> {
     pub(super) fn predicate(id: PredicateId, world: &World<'w, '_>) -> Self {
         let declared = &world.domain.predicates[id.index()];
         Self {
-            what: "predicate",
+            what: What::Predicate,
             name: &declared.name.text,
             parameters: &declared.parameters,
             declared: declared.name.span,
@@ -282,31 +320,89 @@ impl<'w> Callee<'w> {
     pub(super) fn function(id: FunctionId, world: &World<'w, '_>) -> Self {
         let declared = &world.domain.functions[id.index()];
         Self {
-            what: "function",
+            what: What::Function,
             name: &declared.name.text,
             parameters: &declared.parameters,
             declared: declared.name.span,
         }
     }
 
+    /// An action that a condition names.
+    pub(super) fn action_atom(declared: &'w Signature) -> Self {
+        Self {
+            what: What::ActionAtom,
+            name: &declared.name.text,
+            parameters: &declared.parameters,
+            declared: declared.name.span,
+        }
+    }
+
+    /// A task or an action as a part of a task network.
+    pub(super) fn task(declared: &'w Signature) -> Self {
+        Self { what: What::Task, ..Self::action_atom(declared) }
+    }
+
+    /// As messages say it: "predicate `at`".
+    pub(super) fn describe(&self) -> String {
+        let what = match self.what {
+            What::Predicate => "predicate",
+            What::Function => "function",
+            What::ActionAtom => "action",
+            What::Task => "task",
+        };
+        format!("{what} `{}`", self.name)
+    }
+
     pub(super) fn report_arity(
         &self,
+        arguments: &[Name<'_>],
         given: usize,
         span: Span,
         world: &World<'_, '_>,
         report: &mut Report<'_>,
     ) {
-        let missing = self.parameters.get(given..).unwrap_or_default();
-        let missing = describe_parameters(&world.domain.types, missing);
-        let what = format!("{} `{}`", self.what, self.name);
-        report.push(wrong_arity::wrong_arity(
-            &what,
-            self.parameters.len(),
-            given,
-            &missing,
-            span,
-            self.declared,
-        ));
+        let types = &world.domain.types;
+        let missing = describe_parameters(types, &self.missing(arguments, given));
+        let count = (self.parameters.len(), given);
+        let all = format!("{} {}", self.name, describe_parameters(types, self.parameters));
+        report.push(match self.what {
+            What::ActionAtom => action_atom_arity::action_atom_arity(
+                self.name,
+                count,
+                &missing,
+                all.trim_end(),
+                span,
+                self.declared,
+            ),
+            What::Task => subtask_arity::subtask_arity(
+                self.name,
+                count,
+                &missing,
+                all.trim_end(),
+                span,
+                self.declared,
+            ),
+            What::Predicate | What::Function => wrong_arity::wrong_arity(
+                &self.describe(),
+                self.parameters.len(),
+                given,
+                &missing,
+                span,
+                self.declared,
+            ),
+        });
+    }
+
+    /// The parameters that have no argument: those whose names do not stand among the arguments if that explains the difference, else the last ones.
+    fn missing(&self, arguments: &[Name<'_>], given: usize) -> Vec<Variable> {
+        let absent = |parameter: &&Variable| {
+            !arguments.iter().any(|argument| argument.is(&parameter.name.text))
+        };
+        let unnamed: Vec<Variable> = self.parameters.iter().filter(absent).cloned().collect();
+        if unnamed.len() + given == self.parameters.len() {
+            return unnamed;
+        }
+        self.parameters.get(given..).unwrap_or_default().to_vec()
     }
 
     pub(super) fn report_type(
@@ -318,11 +414,10 @@ impl<'w> Callee<'w> {
         report: &mut Report<'_>,
     ) {
         let wanted = world.describe_types(wanted);
-        let what = format!("{} `{}`", self.what, self.name);
         report.push(type_mismatch::type_mismatch(
             spelling.text,
             found,
-            &what,
+            &self.describe(),
             &wanted,
             spelling.span,
             self.declared,
@@ -350,6 +445,11 @@ pub(super) fn predicate(
                 declared,
             ));
         }
+    } else if let Some(action) = world.names.actions.find(spelling.text) {
+        if report.first(&unknown_predicate::RULE, spelling.text) {
+            let declared = world.domain.signatures[action as usize].name.span;
+            report.push(unknown_predicate::an_action(spelling.text, spelling.span, declared));
+        }
     } else if report.first(&unknown_predicate::RULE, spelling.text) {
         let near = report.nearest(spelling.text, &world.names.predicates);
         report.push(unknown_predicate::unknown_predicate(spelling.text, spelling.span, near));
@@ -368,7 +468,16 @@ pub(super) fn function(
         return Some(FunctionId(id));
     }
     report.lost(spelling, Namespace::Function);
-    if report.first(&unknown_function::RULE, spelling.text) {
+    if let Some(id) = world.names.predicates.find(spelling.text) {
+        if report.first(&predicate_as_function::RULE, spelling.text) {
+            let declared = world.domain.predicates[id as usize].name.span;
+            report.push(predicate_as_function::predicate_as_function(
+                spelling.text,
+                spelling.span,
+                declared,
+            ));
+        }
+    } else if report.first(&unknown_function::RULE, spelling.text) {
         let near = report.nearest(spelling.text, &world.names.functions);
         let none = world.names.functions.len() == 0;
         report.push(unknown_function::unknown_function(spelling.text, spelling.span, none, near));

@@ -11,9 +11,9 @@ pub const RULE: Rule = Rule {
     page: include_str!("agent_without_multi_agent.md"),
 };
 
-/// An action has an `:agent`, and the domain does not declare `:multi-agent`.
-pub fn agent_without_multi_agent(span: Span) -> Diagnostic {
-    RULE.at(span, "`:agent` needs the requirement `:multi-agent`", "")
+/// `keyword`, such as `:agent`, is used, and the domain does not declare `:multi-agent`.
+pub fn agent_without_multi_agent(keyword: &str, span: Span) -> Diagnostic {
+    RULE.at(span, format!("`{keyword}` needs the requirement `:multi-agent`"), "used here first")
         .help("add `:multi-agent` to `:requirements`")
 }
 

@@ -51,6 +51,9 @@ fn said(texts: &[&str], also: Also) {
         }
         Also::Lints => {
             diagnostics.append(crate::lint::domain(&domain));
+            for &id in &ids {
+                diagnostics.append(crate::lint::text(&sources, id, &domain));
+            }
             diagnostics.append(
                 problem.map_or_else(Default::default, |problem| {
                     crate::lint::problem(&domain, &problem)

@@ -26,6 +26,17 @@ pub fn out_of_reach(predicate: &str, span: Span) -> Diagnostic {
         .help("every action that adds it needs something that needs it first")
 }
 
+/// The goal at `span` wants a fact of the predicate to become true, or else false, and no action does that.
+pub fn settled(predicate: &str, positive: bool, span: Span) -> Diagnostic {
+    let (change, state, adds) = if positive {
+        ("true", "not in `:init`", "adds")
+    } else {
+        ("false", "in `:init`", "deletes")
+    };
+    RULE.at(span, format!("nothing can make this {change}"), state)
+        .help(format!("no action {adds} `{predicate}`"))
+}
+
 #[cfg(test)]
 mod tests {
     use crate::diagnostic::fixture::lint;
@@ -74,6 +85,24 @@ mod tests {
             "(define (problem p) (:domain d)
   (:init)
   (:goal (lit)))
+",
+        ]);
+    }
+
+    #[test]
+    fn what_no_action_changes_stays() {
+        lint(&[
+            "(define (domain d)
+  (:requirements :negative-preconditions)
+  (:predicates (near ?x ?y) (seen ?x) (used))
+  (:action look :parameters (?x ?y) :precondition (near ?x ?y) :effect (and (seen ?y) (not (used)))))
+",
+            "(define (problem p) (:domain d)
+  (:objects a b)
+  (:init (near a b) (seen a))
+  (:goal (and (near b a) (near a a) (near a b) (seen b) (not (seen a)) (not (near b b)))))
+;             ^^^^^^^^^^ W0701: nothing can make this true
+;                                                       ^^^^^^^^^^^^^^ W0701: nothing can make this false
 ",
         ]);
     }

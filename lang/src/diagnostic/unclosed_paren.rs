@@ -20,7 +20,7 @@ pub fn before_section(
     insertion: (Span, usize),
 ) -> Diagnostic {
     let section = section.to_ascii_lowercase();
-    RULE.at(paren, "this `(` is never closed", format!("`{heading}` opened here"))
+    RULE.at(paren, "this `(` is never closed", opened(heading))
         .label(keyword, format!("a new `{section}` starts here"))
         .help(format!(
             "a `)` is missing before this `{section}`: a section cannot contain another section"
@@ -33,6 +33,43 @@ pub fn before_section(
         .safely()
 }
 
+/// A list is still open where something follows that cannot stand in it; `insertion` says where how many `)` are missing, behind `after`.
+///
+/// `misplaced` is the first keyword of a field that would stand inside of a list.
+pub fn inside(
+    paren: Span,
+    heading: &str,
+    after: Span,
+    misplaced: Option<(Span, &str)>,
+    insertion: (Span, usize),
+) -> Diagnostic {
+    let (place, count) = insertion;
+    let missing = ")".repeat(count);
+    let mut diagnostic = RULE
+        .at(paren, "this `(` is never closed", opened(heading))
+        .label(after, format!("`{missing}` is missing after this"));
+    if let Some((span, word)) = misplaced {
+        diagnostic = diagnostic.label(span, format!("`{word}` cannot stand inside of it"));
+    }
+    diagnostic.fix(format!("insert `{missing}`"), place, missing).safely()
+}
+
+/// A `(` is one too many.
+pub fn superfluous(paren: Span) -> Diagnostic {
+    RULE.at(paren, "this `(` is never closed", "one too many")
+        .help("remove it")
+        .fix("remove this `(`", paren, "")
+        .safely()
+}
+
+/// What stands at the `(` of a list that starts so.
+fn opened(heading: &str) -> String {
+    match heading {
+        "" => "opened here".to_owned(),
+        _ => format!("`{heading}` opened here"),
+    }
+}
+
 /// The text ends while lists are open; `insertion` says where how many `)` are missing.
 pub fn at_end(
     paren: Span,
@@ -41,11 +78,7 @@ pub fn at_end(
     insertion: (Span, usize),
 ) -> Diagnostic {
     let (place, count) = insertion;
-    let mut label = if heading.is_empty() {
-        "opened here".to_owned()
-    } else {
-        format!("`{heading}` opened here")
-    };
+    let mut label = opened(heading);
     let named: Vec<String> = others.iter().rev().map(|other| format!("`({other}`")).collect();
     let too = match named.as_slice() {
         [] => String::new(),

@@ -11,16 +11,40 @@ pub const RULE: Rule = Rule {
     page: include_str!("unexpected_close_paren.md"),
 };
 
-/// A `)` closes nothing, or it closes the whole definition although another section follows.
-pub fn unexpected_close_paren(span: Span, closes_definition: bool) -> Diagnostic {
-    let label = if closes_definition {
-        "this closes `(define`, but another section follows"
-    } else {
-        "nothing is open here"
-    };
+/// A `)` where nothing is open.
+pub fn nothing_open(span: Span) -> Diagnostic {
+    stray(span, "nothing is open here")
+}
+
+/// A `)` that closes the whole definition although another section follows.
+pub fn closes_definition(span: Span) -> Diagnostic {
+    stray(span, "this closes `(define`, but another section follows")
+}
+
+/// A `)` that ends some list too early; `misplaced` is the first keyword that would stand outside of its list because of it.
+pub fn too_many(span: Span, misplaced: Option<(Span, &str)>) -> Diagnostic {
+    let diagnostic = stray(span, "one too many");
+    match misplaced {
+        Some((span, word)) => {
+            diagnostic.label(span, format!("because of it `{word}` stands outside of its list"))
+        }
+        None => diagnostic,
+    }
+}
+
+fn stray(span: Span, label: &str) -> Diagnostic {
     RULE.at(span, "this `)` has no matching `(`", label)
         .help("remove it")
         .fix("remove this `)`", span, "")
+        .safely()
+}
+
+/// A later `)` has no partner, because a `(` is missing before `word`.
+pub fn missing_open(word: &str, span: Span) -> Diagnostic {
+    let place = Span { end: span.start, ..span };
+    RULE.at(span, format!("a `(` is missing before `{word}`"), "a list starts here")
+        .help("without it, a later `)` has no matching `(`")
+        .fix("insert `(`", place, "(")
         .safely()
 }
 

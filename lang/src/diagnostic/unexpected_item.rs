@@ -16,6 +16,18 @@ pub fn unexpected_item(expected: &str, span: Span) -> Diagnostic {
     RULE.at(span, format!("expected {expected}"), "found this")
 }
 
+impl Diagnostic {
+    /// Says that the words at the place of the mistake probably belong to the comment above them.
+    #[must_use]
+    pub(crate) fn in_comment(self) -> Self {
+        let span = self.primary.span;
+        self.help(
+            "a comment ends with its line; if this belongs to the one above, begin it with `;`",
+        )
+        .fix("make it a comment", Span { end: span.start, ..span }, "; ")
+    }
+}
+
 /// Something is missing in or after `span`.
 pub fn missing_item(expected: &str, span: Span) -> Diagnostic {
     RULE.at(span, format!("expected {expected}"), "missing here")

@@ -11,10 +11,12 @@ pub const RULE: Rule = Rule {
     page: include_str!("uninitialised_function.md"),
 };
 
-/// `(NAME)` is used in `:metric` and has no initial value.
-pub fn uninitialised_function(name: &str, span: Span) -> Diagnostic {
-    RULE.at(span, format!("`({name})` has no initial value"), "used in `:metric`")
-        .help(format!("add `(= ({name}) 0)` to `:init`"))
+/// The function `name`, with `parameters` or without, is used at `span` and has no initial value; `here` says whether that is in the problem.
+pub fn uninitialised_function(name: &str, parameters: bool, span: Span, here: bool) -> Diagnostic {
+    let shown = if parameters { format!("({name} …)") } else { format!("({name})") };
+    let label = if here { "used here" } else { "used here, and no effect assigns it a value" };
+    RULE.at(span, format!("`{shown}` has no initial value"), label)
+        .help(format!("add `(= {shown} 0)` to `:init`"))
 }
 
 #[cfg(test)]
@@ -39,6 +41,25 @@ mod tests {
   (:goal (clean mug))
   (:metric minimize (total-cost)))
 ;                   ^^^^^^^^^^^^ W0501: `(total-cost)` has no initial value
+",
+        ]);
+    }
+
+    #[test]
+    fn a_condition_has_no_value() {
+        check(&[
+            "(define (domain d)
+  (:requirements :fluents)
+  (:predicates (clean))
+  (:functions (water) (soap) (heat))
+  (:action wash
+    :precondition (and (>= (water) 3) (< (soap) 5) (= (heat) 1))
+;                          ^^^^^^^ W0501: `(water)` has no initial value
+    :effect (and (clean) (assign (soap) 2))))
+",
+            "(define (problem p) (:domain d)
+  (:init (= (heat) 0))
+  (:goal (clean)))
 ",
         ]);
     }

@@ -21,6 +21,17 @@ pub fn unknown_predicate(name: &str, span: Span, near: Option<&str>) -> Diagnost
     }
 }
 
+/// `name` is an action, declared at `declared`, in a domain without agents.
+pub fn an_action(name: &str, span: Span, declared: Span) -> Diagnostic {
+    RULE.at(
+        span,
+        format!("`{name}` is an action, not a predicate"),
+        "not declared in `:predicates`",
+    )
+    .label(declared, "the action")
+    .help("only where actions have an `:agent` may conditions name other actions")
+}
+
 #[cfg(test)]
 mod tests {
     use crate::diagnostic::fixture::check;

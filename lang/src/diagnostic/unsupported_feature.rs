@@ -11,10 +11,10 @@ pub const RULE: Rule = Rule {
     page: include_str!("unsupported_feature.md"),
 };
 
-/// `feature` is used at `span`, and Caveat does not plan it yet.
+/// `feature` is used at `span`, and Caveat only checks it.
 pub fn unsupported_feature(feature: &str, span: Span) -> Diagnostic {
-    RULE.at(span, format!("{feature} are not supported yet"), "used here first")
-        .help("`caveat plan` does not plan this yet; what stands here is not checked either")
+    RULE.at(span, format!("{feature} cannot be planned or validated"), "used here first")
+        .help("`caveat check` checks them; `caveat check --support` names planners that plan them")
 }
 
 #[cfg(test)]
@@ -31,14 +31,14 @@ mod tests {
   (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
   (:functions (water))
   (:durative-action soak :parameters (?d - dish) :duration (= ?duration 5) :effect (at end (clean ?d)))
-;  ^^^^^^^^^^^^^^^^ E0303: durative actions are not supported yet
+;                   ^^^^ E0303: durative actions cannot be planned or validated
   (:durative-action dry :parameters (?d - dish) :duration (= ?duration 5) :effect (at end (clean ?d)))
   (:action wash
     :parameters (?d - dish)
     :precondition (and (>= (water) 3) (< (water) 9))
-;                       ^^ E0303: numeric conditions are not supported yet
+;                       ^^ E0303: numeric conditions cannot be planned or validated
     :effect (and (clean ?d) (decrease (water) 2) (assign (water) (+ (water) 1)))))
-;                            ^^^^^^^^ E0303: numeric effects other than `increase` by a constant or a function are not supported yet
+;                            ^^^^^^^^ E0303: numeric effects other than `increase` by a constant or a function cannot be planned or validated
 ",
         ]);
     }
@@ -73,21 +73,23 @@ mod tests {
   (:types cup plate - dish place)
   (:constants sink - place)
   (:predicates (in ?d - dish ?p - place) (clean ?d - dish) (lit))
+  (:functions (total-cost))
   (:action wash
     :parameters (?d - dish)
     :precondition (in ?d sink)
     :effect (clean ?d)))
 ",
             "(define (problem p) (:domain d)
+  (:requirements :timed-initial-literals :preferences :constraints)
   (:objects mug - cup)
-  (:init (at 5 (lit)) (at 7 (lit)))
-;         ^^ E0303: timed initial literals are not supported yet
+  (:init (at 5 (lit)) (at 7 (lit)) (= (total-cost) 0))
+;            ^ E0303: timed initial literals cannot be planned or validated
   (:goal (preference nice (clean mug)))
-;         ^^^^^^^^^^ E0303: preferences are not supported yet
+;         ^^^^^^^^^^ E0303: preferences cannot be planned or validated
   (:constraints (always (lit)))
-;  ^^^^^^^^^^^^ E0303: trajectory constraints are not supported yet
+;  ^^^^^^^^^^^^ E0303: trajectory constraints cannot be planned or validated
   (:metric maximize (total-cost)))
-;  ^^^^^^^ E0303: metrics other than `minimize` of a function without parameters are not supported yet
+;  ^^^^^^^ E0303: metrics other than `minimize` of a function without parameters cannot be planned or validated
 ",
         ]);
     }

@@ -17,6 +17,13 @@ pub fn unused_parameter(name: &str, owner: &str, span: Span) -> Diagnostic {
         .help("remove it: an unused parameter multiplies the number of ground actions by the number of its objects")
 }
 
+/// Says in the help of such a diagnostic that `count` objects of `problem` may stand for the parameter.
+pub fn tell_factor(diagnostic: &mut Diagnostic, count: u64, problem: &str) {
+    diagnostic.help = Some(format!(
+        "remove it: an unused parameter multiplies the number of ground actions by the number of its objects (here {count}, in problem `{problem}`)"
+    ));
+}
+
 #[cfg(test)]
 mod tests {
     use crate::diagnostic::fixture::check;

@@ -1,18 +1,18 @@
 //! The sections of a domain.
 
+use super::Reader;
 use super::list::Names;
-use super::{Reader, lower};
-use crate::ast::{Action, Derived, Domain, DomainSection, Feature, Head, Name, TypedList, Unread};
+use crate::ast::{
+    ActionKind, Axiom, Derived, Domain, DomainSection, Feature, Formula, Name, TypedList,
+};
 use crate::diagnostic::{
-    Diagnostics, duplicate_field, missing_duration, several_formulas, suspicious_type_list,
-    unexpected_item, unknown_field, unknown_section,
+    Diagnostics, several_formulas, suspicious_type_list, unexpected_item, unknown_section,
 };
 use crate::near::nearest;
-use crate::source::Span;
 use crate::tree::{NodeId, Tree};
 
-/// What can stand directly in a domain, with what is read later.
-const SECTIONS: [&str; 17] = [
+/// What can stand directly in a domain.
+const SECTIONS: [&str; 20] = [
     ":requirements",
     ":types",
     ":constants",
@@ -30,23 +30,13 @@ const SECTIONS: [&str; 17] = [
     ":concurrency-constraint",
     ":positive-dependence",
     ":invariant",
+    ":timeless",
+    ":safety",
+    ":extends",
 ];
 
-/// The fields of an action, with what is read later.
-const FIELDS: [&str; 12] = [
-    ":parameters",
-    ":precondition",
-    ":effect",
-    ":agent",
-    ":duration",
-    ":condition",
-    ":vars",
-    ":context",
-    ":expansion",
-    ":observe",
-    ":constraints",
-    ":comment",
-];
+/// The fields of an axiom of PDDL 1.2.
+const AXIOM: [&str; 3] = [":vars", ":context", ":implies"];
 
 /// Reads a domain.
 pub fn domain<'a>(tree: &Tree<'a>, diagnostics: &mut Diagnostics) -> Domain<'a> {
@@ -69,7 +59,11 @@ impl<'a> Reader<'a, '_> {
     ) -> Option<(Name<'a>, &'static str)> {
         let Some(head) = self.head(item) else {
             if !std::mem::replace(&mut self.lost, true) {
-                self.unexpected("a section in parentheses", item);
+                if self.tree.is_list(item) {
+                    self.unexpected("a section in parentheses", item);
+                } else {
+                    self.stray("a section in parentheses", item);
+                }
             }
             return None;
         };
@@ -96,64 +90,58 @@ impl<'a> Reader<'a, '_> {
         let tree = self.tree;
         let Some((head, section)) = self.section(item, "domain", &SECTIONS) else { return };
         let content = tree.children(item).skip(1);
-        let mut unread = Vec::new();
         let read = match section {
             ":requirements" => DomainSection::Requirements(self.words(item)),
             ":types" => {
-                let list = self.typed_list(content, Names::Words, &mut unread);
+                let list = self.typed_list(content, Names::Words);
                 self.swallowed(&list);
                 DomainSection::Types(list)
             }
-            ":constants" => {
-                DomainSection::Constants(self.typed_list(content, Names::Words, &mut unread))
-            }
-            ":predicates" => DomainSection::Predicates(self.predicates(content, &mut unread)),
+            ":constants" => DomainSection::Constants(self.typed_list(content, Names::Words)),
+            ":predicates" => DomainSection::Predicates(self.predicates(content)),
             ":functions" => DomainSection::Functions(self.functions(content)),
-            ":action" => DomainSection::Action(self.action(item)),
+            ":action" => DomainSection::Action(self.action(ActionKind::Instant, item)),
+            ":durative-action" => DomainSection::Action(self.action(ActionKind::Durative, item)),
+            ":process" => DomainSection::Action(self.action(ActionKind::Process, item)),
+            ":event" => DomainSection::Action(self.action(ActionKind::Event, item)),
             ":derived" => match self.derived(item) {
                 Some(derived) => DomainSection::Derived(derived),
                 None => return,
             },
-            _ => {
-                if section == ":durative-action" {
-                    self.duration(item);
-                }
-                let feature = match section {
-                    ":durative-action" => Feature::DurativeActions,
-                    ":constraints" => Feature::Constraints,
-                    ":process" | ":event" => Feature::Processes,
-                    ":task" | ":method" => Feature::Hierarchies,
-                    ":concurrency-constraint" | ":positive-dependence" => Feature::MultiAgent,
-                    ":invariant" => Feature::Invariants,
-                    _ => Feature::Axioms,
-                };
-                DomainSection::Unread(self.unread(feature, head, item))
-            }
+            ":axiom" => DomainSection::Axiom(self.axiom(head, item)),
+            ":constraints" => DomainSection::Constraints(head, self.all_formulas(section, item)),
+            ":task" => DomainSection::Task(self.task(item)),
+            ":method" => DomainSection::Method(self.method(item)),
+            ":concurrency-constraint" => DomainSection::Concurrency(self.concurrency(item)),
+            ":positive-dependence" => DomainSection::Dependence(head, self.words(item)),
+            ":invariant" => DomainSection::Unread(self.unread(Feature::Invariants, head, item)),
+            _ => DomainSection::Unread(self.unread(Feature::Axioms, head, item)),
         };
         sections.push(read);
-        sections.extend(unread.into_iter().map(DomainSection::Unread));
     }
 
-    /// Reports a durative action without a duration.
-    fn duration(&mut self, item: NodeId) {
-        let tree = self.tree;
-        let words: Vec<NodeId> = tree.children(item).collect();
-        let is = |part: &NodeId, word: &str| tree.slice(*part).eq_ignore_ascii_case(word);
-        let name =
-            words.get(1).filter(|&&name| !tree.is_list(name) && !tree.slice(name).starts_with(':'));
-        if words.iter().any(|part| is(part, ":duration") || is(part, "duration")) {
-            return;
+    /// The formulas of a section that has one.
+    pub(super) fn all_formulas(&mut self, section: &str, item: NodeId) -> Vec<Formula<'a>> {
+        let values: Vec<NodeId> = self.tree.children(item).skip(1).collect();
+        let mut formulas = Vec::new();
+        self.formulas(section, &values, &mut formulas);
+        formulas
+    }
+
+    /// `(:axiom :vars (…) :context CONDITION :implies LITERAL)`
+    fn axiom(&mut self, keyword: Name<'a>, item: NodeId) -> Axiom<'a> {
+        let mut fields = self.fields(item, 1, "the axiom".to_owned(), &AXIOM);
+        let (mut variables, mut context, mut implies) =
+            (TypedList::default(), Vec::new(), Vec::new());
+        while let Some((field, _, values)) = self.next_field(&mut fields) {
+            match field {
+                ":vars" => self.parameters(&values, &mut variables),
+                ":context" => self.formulas(field, &values, &mut context),
+                _ => self.formulas(field, &values, &mut implies),
+            }
         }
-        let Some(&name) = name else { return };
-        let after =
-            words.iter().position(|part| is(part, ":parameters")).and_then(|at| words.get(at + 1));
-        let end = tree.span(*after.unwrap_or(&name)).end;
-        let place = Span { start: end, end, ..tree.span(name) };
-        self.diagnostics.push(missing_duration::missing_duration(
-            tree.slice(name),
-            tree.span(name),
-            place,
-        ));
+        let (context, implies) = (context.into_iter().next(), implies.into_iter().next());
+        Axiom { keyword, variables, context, implies }
     }
 
     /// Warns of names that stand on lines of their own and yet get the type after the next `-`.
@@ -198,32 +186,6 @@ impl<'a> Reader<'a, '_> {
         words
     }
 
-    fn predicates(
-        &mut self,
-        items: impl Iterator<Item = NodeId>,
-        unread: &mut Vec<Unread<'a>>,
-    ) -> Vec<Head<'a>> {
-        let mut heads = Vec::new();
-        for item in items {
-            match self.head(item) {
-                Some(head) if head.is(":private") => {
-                    unread.push(self.unread(Feature::MultiAgent, head, item));
-                    // Whose they are is not read yet; that they exist is.
-                    let private =
-                        self.tree.children(item).filter(|&child| self.tree.is_list(child));
-                    let private: Vec<_> = private.collect();
-                    heads.extend(
-                        private
-                            .into_iter()
-                            .filter_map(|child| self.declaration(child, "a predicate")),
-                    );
-                }
-                _ => heads.extend(self.declaration(item, "a predicate")),
-            }
-        }
-        heads
-    }
-
     fn derived(&mut self, item: NodeId) -> Option<Derived<'a>> {
         let tree = self.tree;
         let mut parts = tree.children(item).skip(1);
@@ -244,125 +206,5 @@ impl<'a> Reader<'a, '_> {
             self.diagnostics.push(several_formulas::several_formulas(":derived", span));
         }
         Some(Derived { head, body, place: self.place(item) })
-    }
-
-    fn action(&mut self, item: NodeId) -> Action<'a> {
-        let tree = self.tree;
-        let mut parts = tree.children(item).peekable();
-        let keyword = parts.next().map_or(tree.span(item), |keyword| tree.span(keyword));
-        let name = parts.next_if(|&part| !tree.is_list(part) && !tree.slice(part).starts_with(':'));
-        let name = if let Some(name) = name {
-            self.name(name)
-        } else {
-            self.diagnostics.push(unexpected_item::missing_item("the name of the action", keyword));
-            Name { text: "", span: keyword }
-        };
-        let mut action = Action {
-            name,
-            parameters: TypedList::default(),
-            preconditions: Vec::new(),
-            effects: Vec::new(),
-            unread: Vec::new(),
-            place: self.place(item),
-        };
-        let mut seen: Vec<(&'static str, Span)> = Vec::new();
-        while let Some(part) = parts.next() {
-            let Some(field) = self.field(part, &action) else {
-                while parts.next_if(|&value| tree.is_list(value)).is_some() {}
-                continue;
-            };
-            let keyword = self.name(part);
-            let repeated = seen.iter().find(|&&(other, _)| other == field);
-            if let Some(&(_, first)) = repeated {
-                let owner = format!("action `{}`", action.name);
-                self.diagnostics.push(duplicate_field::duplicate_field(
-                    field,
-                    &owner,
-                    keyword.span,
-                    first,
-                ));
-            } else {
-                seen.push((field, keyword.span));
-            }
-            let mut count = 0;
-            let agent = field == ":agent";
-            while let Some(value) =
-                parts.next_if(|&value| tree.is_list(value) || !self.is_field(value, agent))
-            {
-                count += 1;
-                self.field_value(field, keyword, value, count, &mut action);
-            }
-        }
-        action
-    }
-
-    /// Whether a word that follows a value starts a field, although it may be misspelt.
-    fn is_field(&self, part: NodeId, after_agent: bool) -> bool {
-        let word = self.tree.slice(part);
-        // The value of `:agent` is no list: in `:agent ?a - agent` the last word is a type.
-        word.starts_with(':')
-            || !after_agent && FIELDS.iter().any(|field| field[1..].eq_ignore_ascii_case(word))
-    }
-
-    /// The field that a word starts, taken as the one that was probably meant.
-    fn field(&mut self, part: NodeId, action: &Action<'a>) -> Option<&'static str> {
-        if self.tree.is_list(part) {
-            self.unexpected("a field such as `:parameters`", part);
-            return None;
-        }
-        let word = self.name(part);
-        if let Some(&field) = FIELDS.iter().find(|field| word.is(field)) {
-            return Some(field);
-        }
-        let near = nearest(word.text, FIELDS)
-            .or_else(|| FIELDS.into_iter().find(|field| word.is(&field[1..])));
-        let near = near.and_then(|near| FIELDS.into_iter().find(|&field| field == near));
-        let owner = format!("action `{}`", action.name);
-        self.diagnostics.push(unknown_field::unknown_field(&owner, word.text, word.span, near));
-        near
-    }
-
-    /// The value number `count` of a field.
-    fn field_value(
-        &mut self,
-        field: &'static str,
-        keyword: Name<'a>,
-        value: NodeId,
-        count: usize,
-        action: &mut Action<'a>,
-    ) {
-        let tree = self.tree;
-        match field {
-            ":precondition" | ":effect" => {
-                if count > 1 {
-                    let span = self.opening(value);
-                    self.diagnostics.push(several_formulas::several_formulas(field, span));
-                }
-                let formula = self.formula(value);
-                if field == ":effect" {
-                    action.effects.push(formula);
-                } else {
-                    action.preconditions.push(formula);
-                }
-            }
-            ":parameters" if count == 1 && tree.is_list(value) => {
-                let list = self.typed_list(tree.children(value), Names::Variables, &mut Vec::new());
-                action.parameters.groups.extend(list.groups);
-            }
-            ":parameters" => self.unexpected("one list of parameters", value),
-            _ => {
-                let feature = match lower(field, &mut [0; 24]) {
-                    ":agent" => Feature::MultiAgent,
-                    ":duration" | ":condition" => Feature::DurativeActions,
-                    ":observe" => Feature::Nondeterminism,
-                    ":constraints" => Feature::Constraints,
-                    ":comment" => return,
-                    _ => Feature::Axioms,
-                };
-                if count == 1 {
-                    action.unread.push(self.unread(feature, keyword, value));
-                }
-            }
-        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Reader, is_number};
 use crate::ast::{
-    Application, Feature, FunctionGroup, Group, Head, Name, TypeReference, TypedList, Unread,
+    Application, FunctionGroup, Group, Head, Name, Private, TypeReference, TypedList,
 };
 use crate::diagnostic::{dash_not_separated, unexpected_item};
 use crate::lexer;
@@ -19,21 +19,53 @@ pub(super) enum Names {
 }
 
 impl<'a> Reader<'a, '_> {
-    /// `a b - t c - (either u v) d`; private parts go to `unread`.
+    /// `a b - t c - (either u v) d`
     pub(super) fn typed_list(
         &mut self,
         items: impl Iterator<Item = NodeId>,
         names: Names,
-        unread: &mut Vec<Unread<'a>>,
     ) -> TypedList<'a> {
+        let mut private = Vec::new();
+        let groups = self.groups(items, names, &mut private);
+        let private = private.into_iter().map(|(keyword, item)| {
+            let content = self.tree.children(item).skip(1);
+            // What is private in something private is only private.
+            let groups = self.groups(content, names, &mut Vec::new());
+            Private { keyword, groups }
+        });
+        let private = private.collect();
+        TypedList { groups, private }
+    }
+
+    /// The names with their types; the lists that start with `:private` are handed out.
+    fn groups(
+        &mut self,
+        items: impl Iterator<Item = NodeId>,
+        names: Names,
+        private: &mut Vec<(Name<'a>, NodeId)>,
+    ) -> Vec<Group<'a>> {
         let mut groups = Vec::new();
         let mut pending: Vec<Name<'a>> = Vec::new();
         let mut items = items;
+        let mut nested = false;
+        let mut inner = Vec::new();
         while let Some(item) = items.next() {
             if self.tree.is_list(item) {
                 match self.head(item) {
-                    Some(head) if head.is(":private") => {
-                        unread.push(self.unread(Feature::MultiAgent, head, item));
+                    Some(head) if head.is(":private") && names == Names::Words => {
+                        private.push((head, item));
+                    }
+                    Some(head) if head.is_variable() && names == Names::Variables => {
+                        // `((?a - t) (?b - u))` is a list of variables with too many parentheses.
+                        if !std::mem::replace(&mut nested, true) {
+                            self.unexpected(names.describe(), item);
+                        }
+                        let content = self.tree.children(item);
+                        if !pending.is_empty() {
+                            let names = std::mem::take(&mut pending);
+                            groups.push(Group { names, types: None });
+                        }
+                        inner.push((groups.len(), content));
                     }
                     _ => self.unexpected(names.describe(), item),
                 }
@@ -63,11 +95,17 @@ impl<'a> Reader<'a, '_> {
         if !pending.is_empty() {
             groups.push(Group { names: pending, types: None });
         }
-        TypedList { groups }
+        for (place, content) in inner.into_iter().rev() {
+            let words = content.filter(|&part| !self.tree.is_list(part));
+            let words: Vec<NodeId> = words.collect();
+            let read = self.groups(words.into_iter(), names, private);
+            groups.splice(place..place, read);
+        }
+        groups
     }
 
     /// `-truck`, which stands for `- truck`.
-    fn glued_type(&mut self, name: Name<'a>) -> Option<TypeReference<'a>> {
+    pub(super) fn glued_type(&mut self, name: Name<'a>) -> Option<TypeReference<'a>> {
         let bare = name.text.strip_prefix('-')?;
         if is_number(name.text) {
             return None;
@@ -111,13 +149,15 @@ impl<'a> Reader<'a, '_> {
     /// `(NAME ?x - t …)`
     pub(super) fn declaration(&mut self, item: NodeId, what: &str) -> Option<Head<'a>> {
         let Some(name) = self.head(item) else {
-            self.unexpected(&format!("{what} in parentheses"), item);
+            let expected = format!("{what} in parentheses");
+            if self.tree.is_list(item) {
+                self.unexpected(&expected, item);
+            } else {
+                self.stray(&expected, item);
+            }
             return None;
         };
-        let mut ignored = Vec::new();
-        let tree = self.tree;
-        let parameters =
-            self.typed_list(tree.children(item).skip(1), Names::Variables, &mut ignored);
+        let parameters = self.typed_list(self.tree.children(item).skip(1), Names::Variables);
         Some(Head { name, parameters, place: self.place(item) })
     }
 

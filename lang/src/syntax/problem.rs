@@ -2,12 +2,18 @@
 
 use super::list::Names;
 use super::{Reader, is_number, lower};
-use crate::ast::{Entry, EntryKind, Feature, Init, Name, Problem, ProblemSection};
-use crate::diagnostic::{Diagnostics, connective_in_init, several_formulas};
+use crate::ast::{Entry, EntryKind, Feature, Goal, Init, Metric, Name, Problem, ProblemSection};
+use crate::diagnostic::{Diagnostics, connective_in_init, unexpected_item};
 use crate::tree::{NodeId, NodeKind, Tree};
 
-/// What can stand directly in a problem, with what is read later.
-const SECTIONS: [&str; 9] = [
+/// The fields of a goal that belongs to an agent.
+const GOAL: [&str; 2] = [":agent", ":condition"];
+
+/// The fields of a metric that belongs to an agent.
+const METRIC: [&str; 2] = [":agent", ":utility"];
+
+/// What can stand directly in a problem.
+const SECTIONS: [&str; 10] = [
     ":domain",
     ":requirements",
     ":objects",
@@ -16,6 +22,7 @@ const SECTIONS: [&str; 9] = [
     ":metric",
     ":constraints",
     ":htn",
+    ":htnti",
     ":length",
 ];
 
@@ -35,59 +42,81 @@ impl<'a> Reader<'a, '_> {
         let tree = self.tree;
         let Some((head, section)) = self.section(item, "problem", &SECTIONS) else { return };
         let mut content = tree.children(item).skip(1);
-        let mut unread = Vec::new();
         let read = match section {
             ":domain" => match content.next().filter(|&name| !tree.is_list(name)) {
                 Some(name) => ProblemSection::Domain(self.name(name)),
                 None => return self.unexpected("`(:domain NAME)`", item),
             },
             ":requirements" => ProblemSection::Requirements(self.words(item)),
-            ":objects" => {
-                ProblemSection::Objects(self.typed_list(content, Names::Words, &mut unread))
-            }
+            ":objects" => ProblemSection::Objects(self.typed_list(content, Names::Words)),
             ":init" => ProblemSection::Init(self.init(item)),
-            ":goal" => {
-                let mut formulas = Vec::new();
-                for part in content {
-                    if !formulas.is_empty() {
-                        let span = self.opening(part);
-                        self.diagnostics.push(several_formulas::several_formulas(":goal", span));
-                    }
-                    formulas.push(self.formula(part));
-                }
-                ProblemSection::Goal(formulas)
-            }
-            ":metric" => self.metric(head, item),
-            // It was in PDDL 1.2 and says nothing about the plan.
-            ":length" => return,
-            _ => {
-                let feature =
-                    if section == ":htn" { Feature::Hierarchies } else { Feature::Constraints };
-                ProblemSection::Unread(self.unread(feature, head, item))
-            }
+            ":goal" => ProblemSection::Goal(self.goal(item)),
+            ":metric" => ProblemSection::Metric(self.metric(head, item)),
+            ":constraints" => ProblemSection::Constraints(head, self.all_formulas(section, item)),
+            ":htn" | ":htnti" => ProblemSection::Network(self.initial_network(head, item)),
+            // `:length` was in PDDL 1.2 and says nothing about the plan.
+            _ => return,
         };
         sections.push(read);
-        sections.extend(unread.into_iter().map(ProblemSection::Unread));
     }
 
-    fn metric(&mut self, head: Name<'a>, item: NodeId) -> ProblemSection<'a> {
-        let mut content = self.tree.children(item).skip(1);
-        let direction = content.next().map(|direction| self.name(direction));
-        let value = content.next();
-        let function = value.and_then(|value| {
-            let mut terms = Vec::new();
-            let function = self.application(value, &mut terms)?;
-            terms.is_empty().then(|| (function.name, self.place(value)))
-        });
-        match function {
-            Some((function, place))
-                if direction.is_some_and(|direction| direction.is("minimize"))
-                    && content.next().is_none() =>
-            {
-                ProblemSection::Metric(function, place)
-            }
-            _ => ProblemSection::Unread(self.unread(Feature::Metrics, head, item)),
+    /// Whether the content of a list starts with a field.
+    fn has_fields(&self, item: NodeId) -> bool {
+        let first = self.tree.children(item).nth(1);
+        first.is_some_and(|first| {
+            !self.tree.is_list(first) && self.tree.slice(first).starts_with(':')
+        })
+    }
+
+    fn goal(&mut self, item: NodeId) -> Goal<'a> {
+        if !self.has_fields(item) {
+            return Goal { agent: None, formulas: self.all_formulas(":goal", item) };
         }
+        let mut fields = self.fields(item, 1, "the goal".to_owned(), &GOAL);
+        let mut goal = Goal { agent: None, formulas: Vec::new() };
+        while let Some((field, keyword, values)) = self.next_field(&mut fields) {
+            if field == ":agent" {
+                goal.agent = self.agent(keyword, &values);
+            } else {
+                self.formulas(field, &values, &mut goal.formulas);
+            }
+        }
+        goal
+    }
+
+    fn metric(&mut self, keyword: Name<'a>, item: NodeId) -> Metric<'a> {
+        let mut agent = None;
+        let mut content: Vec<NodeId> = self.tree.children(item).skip(1).collect();
+        if self.has_fields(item) {
+            let mut fields = self.fields(item, 1, "the metric".to_owned(), &METRIC);
+            content.clear();
+            while let Some((field, keyword, values)) = self.next_field(&mut fields) {
+                if field == ":agent" {
+                    agent = self.agent(keyword, &values);
+                } else {
+                    content = values;
+                }
+            }
+        }
+        let mut content = content.into_iter();
+        let direction = content.next().filter(|&direction| !self.tree.is_list(direction));
+        let direction = match direction.map(|direction| self.name(direction)) {
+            Some(direction) => direction,
+            None => Name { text: "", span: keyword.span },
+        };
+        if !direction.is("minimize") && !direction.is("maximize") {
+            self.diagnostics
+                .push(unexpected_item::unexpected_item("`minimize` or `maximize`", direction.span));
+        }
+        let value = content.next().map(|value| self.expression(value));
+        if value.is_none() && !direction.text.is_empty() {
+            let expected = "an expression such as `(total-cost)`";
+            self.diagnostics.push(unexpected_item::missing_item(expected, direction.span));
+        }
+        if let Some(extra) = content.next() {
+            self.unexpected("one expression in `:metric`", extra);
+        }
+        Metric { keyword, agent, direction, value }
     }
 
     /// The content of `(:init …)`. An `and` around facts is reported and taken away.
@@ -104,7 +133,7 @@ impl<'a> Reader<'a, '_> {
             match node.kind {
                 NodeKind::List | NodeKind::OpenList => {}
                 NodeKind::Atom => {
-                    self.unexpected("a fact in parentheses", id);
+                    self.stray("a fact in parentheses", id);
                     continue;
                 }
                 _ => continue,
@@ -126,8 +155,8 @@ impl<'a> Reader<'a, '_> {
                         .push(connective_in_init::connective_in_init(head.text, head.span));
                 }
                 word => {
-                    if let Some(kind) = self.entry(head, word, id, &mut init.terms) {
-                        init.entries.push(Entry { kind, place: self.place(id) });
+                    if let Some((kind, time)) = self.entry(head, word, id, &mut init.terms) {
+                        init.entries.push(Entry { kind, time, place: self.place(id) });
                     }
                 }
             }
@@ -135,7 +164,33 @@ impl<'a> Reader<'a, '_> {
         init
     }
 
+    /// What one list says, and when.
     fn entry(
+        &mut self,
+        head: Name<'a>,
+        word: &str,
+        id: NodeId,
+        terms: &mut Vec<Name<'a>>,
+    ) -> Option<(EntryKind<'a>, Option<Name<'a>>)> {
+        let tree = self.tree;
+        let mut operands = tree.children(id).skip(1);
+        if word == "at"
+            && let (Some(time), Some(literal), None) =
+                (operands.next(), operands.next(), operands.next())
+            && is_number(tree.slice(time))
+            && tree.is_list(literal)
+        {
+            let Some(head) = self.head(literal) else {
+                self.unexpected("a fact", literal);
+                return None;
+            };
+            let kind = self.fact(head, lower(head.text, &mut [0; 24]), literal, terms)?;
+            return Some((kind, Some(self.name(time))));
+        }
+        Some((self.fact(head, word, id, terms)?, None))
+    }
+
+    fn fact(
         &mut self,
         head: Name<'a>,
         word: &str,
@@ -153,12 +208,12 @@ impl<'a> Reader<'a, '_> {
                     return None;
                 };
                 if !tree.is_list(right)
-                    && is_number(tree.slice(right))
                     && let Some(function) = self.application(left, terms)
                 {
                     return Some(EntryKind::Value(function, self.name(right)));
                 }
-                Some(EntryKind::Unread(self.unread(Feature::ObjectFluents, head, id)))
+                self.unexpected("`(= (FUNCTION OBJECT …) NUMBER)`", id);
+                None
             }
             "not" => {
                 let (Some(atom), None) =
@@ -173,16 +228,8 @@ impl<'a> Reader<'a, '_> {
                 };
                 Some(EntryKind::Absent(atom))
             }
-            "at" if operands.clone().count() == 2
-                && operands
-                    .next()
-                    .is_some_and(|time| !tree.is_list(time) && is_number(tree.slice(time)))
-                && operands.next().is_some_and(|literal| tree.is_list(literal)) =>
-            {
-                Some(EntryKind::Unread(self.unread(Feature::TimedLiterals, head, id)))
-            }
-            "oneof" | "probabilistic" | "unknown"
-                if tree.children(id).skip(1).any(|operand| tree.is_list(operand)) =>
+            "oneof" | "probabilistic" | "unknown" | "or"
+                if operands.clone().any(|operand| tree.is_list(operand)) =>
             {
                 Some(EntryKind::Unread(self.unread(Feature::Nondeterminism, head, id)))
             }

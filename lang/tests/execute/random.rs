@@ -159,11 +159,15 @@ impl Builder<'_> {
     }
 }
 
+fn function(text: &str, parameters: Vec<Variable>) -> Function {
+    Function { name: name(text), parameters, values: None, read: None, assigned: false }
+}
+
 fn predicate(at: usize, arity: usize, derived: bool) -> Predicate {
     let parameters = (0..arity)
         .map(|at| Variable { name: name(format!("?a{at}")), types: vec![TypeId(0)] })
         .collect();
-    Predicate { name: name(format!("p{at}")), parameters, derived }
+    Predicate { name: name(format!("p{at}")), parameters, derived, owner: None }
 }
 
 fn axiom(head: usize, arities: &[usize], tape: &mut Tape) -> Axiom {
@@ -209,11 +213,7 @@ fn action(at: usize, arities: &[usize], tape: &mut Tape) -> Action {
 
 fn functions() -> Vec<Function> {
     let one = vec![Variable { name: name("?a"), types: vec![TypeId(0)] }];
-    vec![
-        Function { name: name("total-cost"), parameters: Vec::new() },
-        Function { name: name("weight"), parameters: one },
-        Function { name: name("other"), parameters: Vec::new() },
-    ]
+    vec![function("total-cost", Vec::new()), function("weight", one), function("other", Vec::new())]
 }
 
 impl World {
@@ -244,6 +244,8 @@ impl World {
             functions: functions(),
             axioms,
             actions,
+            signatures: Vec::new(),
+            preferences: Vec::new(),
             uses: Vec::new(),
         };
         let problem = problem(&arities, tape);

@@ -173,6 +173,8 @@ impl Sketch {
             functions: Vec::new(),
             axioms: Vec::new(),
             actions: Vec::new(),
+            signatures: Vec::new(),
+            preferences: Vec::new(),
             uses: Vec::new(),
         };
         let problem = Problem {

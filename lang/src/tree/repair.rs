@@ -1,0 +1,289 @@
+//! A section whose parentheses do not match goes in; the few parentheses to add or to leave out come out.
+//!
+//! One parenthesis after the other is tried in every place, and the one is taken with which the [`Cost`] is least.
+//! A place where the text is still as it must be is not looked at behind the first one where it is not, since a mistake comes before what it causes.
+
+use super::outline::{self, Section};
+use super::shape::{Cost, Piece, PieceKind, State, UNEXPECTED};
+use super::word::Word;
+use crate::lexer::{Token, TokenKind};
+
+/// A change of one parenthesis. Tokens are given by number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Edit {
+    /// A `)` is missing after this token.
+    Close(u32),
+    /// A `(` is missing before this token.
+    Open(u32),
+    /// This parenthesis is too many.
+    Drop(u32),
+}
+
+impl Edit {
+    /// The token at which it is made.
+    pub(super) fn token(self) -> u32 {
+        match self {
+            Self::Close(token) | Self::Open(token) | Self::Drop(token) => token,
+        }
+    }
+}
+
+/// What is to be done in a section.
+#[derive(Debug, Default)]
+pub(super) struct Repair {
+    /// In the order of the text.
+    pub(super) edits: Vec<Edit>,
+    /// The first keyword that stands where none can stand.
+    pub(super) misplaced: Option<u32>,
+}
+
+/// How many parentheses of a section are repaired one by one.
+const EDITS: usize = 12;
+
+/// A section with more parentheses and words is searched near its first oddity only.
+const LONG: usize = 1500;
+
+/// How many places of a long section are searched before an oddity.
+const NEAR: usize = 150;
+
+/// How deep a section may be nested that is searched.
+const DEEP: usize = 400;
+
+/// What it costs to leave out a parenthesis at the start of a line, measured in lines that are indented oddly.
+const DELIBERATE: u32 = 3;
+
+/// How many steps the repairs of one text may take, so that a text full of mistakes is read fast too.
+pub(super) const STEPS: usize = 6_000_000;
+
+/// Repairs the section from `section.start` to the token `end`, where `depth` lists should be open.
+pub(super) fn repair(
+    text: &str,
+    tokens: &[Token],
+    section: &Section,
+    end: u32,
+    depth: u32,
+    steps: &mut usize,
+) -> Repair {
+    let mut search = Search {
+        pieces: pieces(text, tokens, section.start, end),
+        lines: Vec::new(),
+        base: section.depth,
+        depth: depth as usize,
+        steps,
+    };
+    let mut repair = Repair::default();
+    for _ in 0..EDITS {
+        let Some((first, now)) = search.look() else { break };
+        if repair.edits.is_empty() {
+            repair.misplaced = first.misplaced.map(|at| search.pieces[at].token);
+        }
+        if now.impossible == 0 {
+            break;
+        }
+        let Some((change, at)) = search.best(&first, now) else { break };
+        repair.edits.push(search.apply(change, at));
+    }
+    repair.edits.sort_by_key(|edit| (edit.token(), matches!(edit, Edit::Close(_))));
+    repair
+}
+
+/// The parentheses and words of a part of the text.
+fn pieces(text: &str, tokens: &[Token], start: u32, end: u32) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    let mut starts_line = start == 0;
+    for index in start..end {
+        let token = tokens[index as usize];
+        let slice = &text[token.start as usize..token.end as usize];
+        let kind = match token.kind {
+            TokenKind::Space => {
+                starts_line |= slice.contains(['\n', '\r']);
+                continue;
+            }
+            TokenKind::Comment => continue,
+            TokenKind::Open => PieceKind::Open,
+            TokenKind::Close => PieceKind::Close,
+            TokenKind::Atom => PieceKind::Word(Word::read(slice)),
+        };
+        let starts = std::mem::replace(&mut starts_line, false) || index == start;
+        let indent = outline::indent(text, token.start as usize).filter(|_| starts);
+        pieces.push(Piece { kind, token: index, indent: indent.map(|indent| indent as u32) });
+    }
+    pieces
+}
+
+/// A parenthesis that is tried.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Change {
+    /// `)` before the piece.
+    Close,
+    /// `(` before the piece.
+    Open,
+    /// Without the piece.
+    Drop,
+}
+
+/// Where things go wrong first, as positions of pieces.
+struct First {
+    odd: usize,
+    impossible: usize,
+    misplaced: Option<usize>,
+}
+
+struct Search<'s> {
+    pieces: Vec<Piece>,
+    /// The number of the line on which each piece stands.
+    lines: Vec<u32>,
+    base: u32,
+    depth: usize,
+    steps: &'s mut usize,
+}
+
+impl Search<'_> {
+    /// Reads the pieces as they are; nothing if there are too many of them, or they are nested too deep.
+    fn look(&mut self) -> Option<(First, Cost)> {
+        *self.steps = self.steps.checked_sub(self.pieces.len())?;
+        let end = self.pieces.len();
+        let mut first = First { odd: end, impossible: end, misplaced: None };
+        let mut state = State::new(self.base);
+        for (at, &piece) in self.pieces.iter().enumerate() {
+            let before = state.cost;
+            state.step(piece);
+            if state.cost.odd >= before.odd + UNEXPECTED {
+                first.odd = first.odd.min(at);
+            }
+            if state.cost.impossible > before.impossible {
+                first.impossible = first.impossible.min(at);
+                if matches!(piece.kind, PieceKind::Word(_)) {
+                    first.misplaced = first.misplaced.or(Some(at));
+                }
+            }
+            if state.depth() > DEEP {
+                return None;
+            }
+        }
+        Some((first, state.finish(self.depth)))
+    }
+
+    /// The change with which the cost is least, if some change helps.
+    ///
+    /// Of equal ones the last in the text is taken, but a `)` is added on the first line where it can be:
+    /// the lists that end there may be those that were left open, and the ones that end below them need not.
+    fn best(&mut self, first: &First, now: Cost) -> Option<(Change, usize)> {
+        let end = self.pieces.len();
+        let last = first.impossible.min(end);
+        let near = |place: usize| place.saturating_sub(NEAR)..(place + 2).min(last + 1);
+        let places: Vec<usize> = if end <= LONG {
+            (0..=last).collect()
+        } else {
+            let mut places: Vec<usize> = near(first.odd.min(last)).chain(near(last)).collect();
+            places.sort_unstable();
+            places.dedup();
+            places
+        };
+        self.lines.clear();
+        self.lines.extend(self.pieces.iter().scan(0, |line, piece| {
+            *line += u32::from(piece.indent.is_some());
+            Some(*line)
+        }));
+        let mut states = Vec::with_capacity(places.len());
+        let mut state = State::new(self.base);
+        let mut read = 0;
+        for &place in &places {
+            self.pieces[read..place].iter().for_each(|&piece| state.step(piece));
+            read = place;
+            states.push(state.clone());
+        }
+        let mut least = Cost { impossible: now.impossible - 1, odd: u32::MAX };
+        let mut best: Option<(Change, usize)> = None;
+        for (&place, state) in places.iter().zip(&states).rev() {
+            for change in self.changes(place) {
+                let Some(cost) = self.cost(state, change, place, least) else { continue };
+                let earlier = |&(other, at): &(Change, usize)| {
+                    let is_close = other == Change::Close && change == Change::Close;
+                    is_close && self.lines[place - 1] < self.lines[at - 1]
+                };
+                if cost < least || best.as_ref().is_none_or(earlier) {
+                    (least, best) = (cost, Some((change, place)));
+                }
+            }
+        }
+        best
+    }
+
+    /// What can be tried at a place, the likeliest first.
+    fn changes(&self, place: usize) -> impl Iterator<Item = Change> + use<> {
+        let here = self.pieces.get(place).map(|piece| piece.kind);
+        let before = place.checked_sub(1).map(|before| self.pieces[before].kind);
+        let open = (here == Some(PieceKind::Open)).then_some(Change::Drop);
+        let close = (here == Some(PieceKind::Close)).then_some(Change::Drop);
+        let inserts = before.is_some_and(|before| before != PieceKind::Open);
+        let insert = inserts.then_some(Change::Close);
+        let starts = match here {
+            Some(PieceKind::Word(_)) => before != Some(PieceKind::Open),
+            // The value of a field may be empty.
+            Some(PieceKind::Close) => {
+                matches!(before, Some(PieceKind::Word(Word::Keyword(..))))
+            }
+            _ => false,
+        };
+        let start = starts.then_some(Change::Open);
+        [insert, close, start, open].into_iter().flatten()
+    }
+
+    /// The cost with a change, if it is not more than `limit`.
+    fn cost(&mut self, state: &State, change: Change, place: usize, limit: Cost) -> Option<Cost> {
+        let mut state = state.clone();
+        let (changed, rest) = self.changed(change, place);
+        changed.into_iter().flatten().for_each(|piece| state.step(piece));
+        // What stands at the start of a line was put there on purpose.
+        let starts = change == Change::Drop && self.pieces[place].indent.is_some();
+        state.cost.odd += DELIBERATE * u32::from(starts);
+        for (read, &piece) in self.pieces.iter().skip(rest).enumerate() {
+            if state.cost > limit {
+                *self.steps = self.steps.saturating_sub(read);
+                return None;
+            }
+            state.step(piece);
+        }
+        *self.steps = self.steps.saturating_sub(self.pieces.len() - place);
+        let cost = state.finish(self.depth);
+        (cost <= limit).then_some(cost)
+    }
+
+    /// What stands at a place after a change, and the piece with which the text goes on.
+    fn changed(&self, change: Change, place: usize) -> ([Option<Piece>; 2], usize) {
+        let here = self.pieces.get(place).copied();
+        let token = here.map_or(0, |piece| piece.token);
+        let new = |kind, token, indent| Some(Piece { kind, token, indent });
+        match change {
+            Change::Close => {
+                let before = place.checked_sub(1).map_or(0, |before| self.pieces[before].token);
+                ([new(PieceKind::Close, before, None), None], place)
+            }
+            Change::Open => {
+                let indent = here.and_then(|piece| piece.indent);
+                let open = new(PieceKind::Open, token, indent);
+                ([open, here.map(|piece| Piece { indent: None, ..piece })], place + 1)
+            }
+            Change::Drop => {
+                // What follows on the line starts it now.
+                let indent = here.and_then(|piece| piece.indent);
+                let next = self.pieces.get(place + 1).copied();
+                let next = next.map(|next| Piece { indent: next.indent.or(indent), ..next });
+                ([next, None], place + 2)
+            }
+        }
+    }
+
+    fn apply(&mut self, change: Change, place: usize) -> Edit {
+        let (changed, rest) = self.changed(change, place);
+        let edit = match change {
+            Change::Close => Edit::Close(self.pieces[place - 1].token),
+            Change::Open => Edit::Open(self.pieces[place].token),
+            Change::Drop => Edit::Drop(self.pieces[place].token),
+        };
+        let rest = rest.min(self.pieces.len());
+        self.pieces.splice(place..rest, changed.into_iter().flatten());
+        edit
+    }
+}

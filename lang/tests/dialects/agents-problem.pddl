@@ -1,0 +1,7 @@
+(define (problem one-table)
+  (:domain lifting)
+  (:objects left right - arm desk - table)
+  (:init (free left) (free right) (free boss) (= (effort) 0))
+  (:goal :agent left :condition (up desk))
+  (:goal :agent ?a - arm :condition (free ?a))
+  (:metric :agent arm :utility minimize (effort)))

@@ -1,0 +1,6 @@
+(define (problem tower)
+  (:domain blocks-1998)
+  (:objects a b)
+  (:init (clear a) (clear b))
+  (:goal (above a b))
+  (:length (:serial 2) (:parallel 2)))

@@ -1,0 +1,6 @@
+(define (problem evening)
+  (:domain shelves)
+  (:objects red blue - cup shelf - place)
+  (:init (= (water) 2.5) (= (home red) shelf) (= (home blue) sink) (= (distance shelf sink) 1))
+  (:goal (and (clean red) (= (home blue) shelf)))
+  (:metric maximize (- (water) (distance shelf sink))))

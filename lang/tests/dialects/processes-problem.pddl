@@ -1,0 +1,5 @@
+(define (problem tea)
+  (:domain kettle)
+  (:objects red - pot)
+  (:init (= (heat red) 20) (= (power) 4))
+  (:goal (boiling red)))

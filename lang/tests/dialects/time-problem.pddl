@@ -1,0 +1,11 @@
+(define (problem two-stops)
+  (:domain courier)
+  (:requirements :timed-initial-literals)
+  (:objects van1 - van mill market - place)
+  (:init
+    (at van1 mill) (road mill market) (road market mill)
+    (at 5 (open market)) (at 8.5 (not (open market))) (at 9 (= (rate) 3))
+    (= (fuel van1) 20) (= (time-for mill market) 4) (= (time-for market mill) 4.5)
+    (= (rate) 1) (= (delivered) 0))
+  (:goal (at van1 market))
+  (:metric minimize (+ total-time (* 2 (delivered)) (- (total-time) 1))))

@@ -1,0 +1,15 @@
+; expect: E0003 at 15:1-15:76
+; with: good/domain.pddl
+(define (problem monday)
+  (:domain harbour)
+  (:objects
+    liner - ship
+    left right - crane
+    tea rice - container
+    north south - berth)
+  (:init
+    (at liner gate) (at left north) (at right south) (broken right)
+    (at tea north) (at rice north)
+    (channel gate north) (channel north south) (channel south gate))
+  (:goal (and (on tea liner) (at liner south))))
+(define (problem tuesday) (:domain harbour) (:init) (:goal (on tea liner)))

@@ -1,0 +1,14 @@
+; expect: E0202 at 14:23-14:27
+; with: good/domain.pddl
+(define (problem monday)
+  (:domain harbour)
+  (:objects
+    liner - ship
+    left right - crane
+    tea rice - container
+    north south - berth)
+  (:init
+    (at liner gate) (at left north) (at right south) (broken right)
+    (at tea north) (at rice north)
+    (channel gate north) (channel north south) (channel south gate))
+  (:goal (and (on tea left) (at liner south))))

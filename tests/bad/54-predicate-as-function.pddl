@@ -1,0 +1,14 @@
+; expect: E0206 at 14:42-14:49
+(define (domain harbour)
+  (:requirements :strips :typing :action-costs)
+  (:types ship berth)
+  (:predicates
+    (at ?s - ship ?b - berth)
+    (channel ?from ?to - berth))
+  (:functions
+    (total-cost) - number)
+  (:action sail
+    :parameters (?s - ship ?from ?to - berth)
+    :precondition (and (at ?s ?from) (channel ?from ?to))
+    :effect (and (not (at ?s ?from)) (at ?s ?to)
+                 (increase (total-cost) (channel ?from ?to)))))

@@ -1,0 +1,22 @@
+; expect: E0402 at 21:14-21:20
+; with: good/adl-problem.pddl
+(define (domain lamps)
+  (:requirements :adl :derived-predicates)
+  (:types lamp room)
+  (:predicates
+    (in ?l - lamp ?r - room)
+    (lit ?l - lamp)
+    (old ?l - lamp)
+    (dark ?r - room))
+  (:derived (dark ?r - room)
+    (forall (?l - lamp) (or (not (in ?l ?r)) (not (lit ?l)))))
+  (:action light
+    :parameters (?l - lamp ?r - room)
+    :precondition (and (in ?l ?r) (dark ?r) (not (lit ?l)))
+    :effect (and (lit ?l)
+      (when (old ?l) (not (old ?l)))))
+  (:action quench
+    :parameters (?r - room)
+    :precondition (not (dark ?r))
+    :effect (exists (?l - lamp)
+      (when (in ?l ?r) (not (lit ?l))))))

@@ -1,0 +1,12 @@
+; expect: W0302 at 10:40-10:42
+; with: good/tank-problem.pddl
+(define (domain tanks)
+  (:requirements :typing)
+  (:types tank)
+  (:predicates (joined ?a ?b - tank))
+  (:functions (level ?t - tank) (room ?t - tank))
+  (:action pour
+    :parameters (?a ?b - tank)
+    :precondition (and (joined ?a ?b) (>= (level ?a) 1) (>= (room ?b) 1))
+    :effect (and (decrease (level ?a) 1) (increase (room ?a) 1)
+                 (increase (level ?b) 1) (decrease (room ?b) 1))))

@@ -1,0 +1,5 @@
+(define (problem evening)
+  (:domain lamps)
+  (:objects red blue - lamp hall attic - room)
+  (:init (in red hall) (in blue attic) (old blue) (lit red))
+  (:goal (and (lit blue) (dark hall))))

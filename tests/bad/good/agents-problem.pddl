@@ -1,0 +1,5 @@
+(define (problem moving)
+  (:domain piano)
+  (:objects ann bob - mover grand - piano hall cellar - room)
+  (:init (in ann hall) (in bob cellar) (stands grand hall))
+  (:goal (raised grand)))

@@ -1,0 +1,7 @@
+(define (problem filling)
+  (:domain tanks)
+  (:objects high low - tank)
+  (:init (joined high low)
+    (= (level high) 4) (= (room high) 0)
+    (= (level low) 0) (= (room low) 4))
+  (:goal (>= (level low) 3)))

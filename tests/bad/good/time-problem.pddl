@@ -1,0 +1,6 @@
+(define (problem crossing)
+  (:domain ferry)
+  (:objects old - boat east west - shore)
+  (:init (moored old east) (open west)
+    (= (hours east west) 2) (= (hours west east) 3))
+  (:goal (moored old west)))

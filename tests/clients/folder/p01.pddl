@@ -1,0 +1,5 @@
+(define (problem evening)
+  (:domain tidy)
+  (:objects red blue - cup shelf - place)
+  (:init (at red shelf) (at blue sink))
+  (:goal (and (clean red) (at blue shelf))))

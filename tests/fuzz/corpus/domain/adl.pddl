@@ -1,0 +1,5 @@
+(define (domain adl) (:requirements :adl)
+ (:predicates (p ?x) (q))
+ (:action a :parameters (?x ?y)
+  :precondition (and (or (p ?x) (not (q)) (and)) (imply (q) (p ?y)) (forall (?z) (exists (?x - object) (= ?x ?z))))
+  :effect (and (forall (?z) (when (and (p ?z) (not (= ?z ?x))) (and (not (p ?z)) (q)))) (when (q) (not (q))) (p ?x) (not (p ?x)))))

@@ -1,0 +1,7 @@
+(define (domain ma) (:requirements :typing :multi-agent :unfactored-privacy)
+ (:types agent box)
+ (:predicates (near ?a - agent ?b - box) (up ?b - box) (:private ?a - agent (tired ?a) (mood ?a - agent ?b - box)) (:private (secret)))
+ (:action lift :agent ?a - agent :parameters (?b - box)
+  :precondition (and (near ?a ?b) (exists (?c - agent) (and (not (= ?a ?c)) (lift ?c ?b))) (forall (?c - agent) (not (drop ?c ?b))))
+  :effect (and (up ?b) (when (tired ?a) (not (near ?a ?b)))))
+ (:action drop :agent ?a - agent :parameters (?b - box) :effect (not (up ?b))))

@@ -1,0 +1,5 @@
+(define (domain x) (:requirements :derived-predicates :adl)
+ (:predicates (e ?a ?b) (r ?a ?b) (odd ?a) (even ?a))
+ (:derived (r ?a ?b) (or (e ?a ?b) (exists (?c) (and (r ?a ?c) (e ?c ?b)))))
+ (:derived (odd ?a) (not (even ?a))) (:derived (even ?a) (not (odd ?a)))
+ (:action cut :parameters (?a ?b) :precondition (r ?a ?b) :effect (and (not (e ?a ?b)) (r ?b ?a))))

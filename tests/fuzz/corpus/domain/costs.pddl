@@ -1,0 +1,5 @@
+(define (domain c) (:requirements :action-costs :typing)
+ (:types n)
+ (:predicates (p))
+ (:functions (dist ?a ?b - n) - number (total-cost) - number (home ?a - n) - n (untyped))
+ (:action a :parameters (?a ?b - n) :effect (and (increase (total-cost) (dist ?a ?b)) (increase (total-cost) 1.25) (decrease (untyped) (* 2 (dist ?a ?a))) (assign (home ?a) ?b) (scale-up (untyped) 2))))

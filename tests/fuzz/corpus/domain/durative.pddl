@@ -1,0 +1,6 @@
+(define (domain d) (:requirements :durative-actions :fluents :duration-inequalities :continuous-effects)
+ (:predicates (p) (q)) (:functions (f) (g ?x))
+ (:durative-action a :parameters (?x) :duration (and (>= ?duration 1) (<= ?duration (f)))
+  :condition (and (at start (p)) (over all (>= (f) 0)) (at end (forall (?y) (q))))
+  :effect (and (at start (not (p))) (at end (q)) (increase (f) (* #t (g ?x))) (at end (decrease (f) ?duration))))
+ (:durative-action b :parameters () :condition (p) :effect (at end (q))))

@@ -1,0 +1,6 @@
+(define (domain cn) (:requirements :concurrency-network)
+ (:types agent loc)
+ (:predicates (at ?a - agent ?l - loc))
+ (:concurrency-constraint v1 :parameters (?l - loc) :bounds (1 2) :actions ((move 1 2)))
+ (:positive-dependence d :actions ((move 1)))
+ (:action move :parameters (?a - agent ?x ?y - loc) :precondition (at ?a ?x) :effect (at ?a ?y)))

@@ -1,0 +1,5 @@
+(define (domain old) (:requirements :domain-axioms :ucpop :open-world)
+ (:types) (:constants)
+ (:domain-variables ?v) (:timeless (p)) (:predicates (p) (q ?x))
+ (:axiom :vars (?x) :context (p) :implies (q ?x))
+ (:action a :vars (?x) :precondition () :effect () :expansion :methods))

@@ -1,0 +1,6 @@
+(define (domain lamp)
+  (:requirements :strips)
+  (:predicates (lit ?l) (broken ?l) (wired))
+  (:action press :parameters (?l)
+    :precondition (and (wired) (not (broken ?l)))
+    :effect (and (lit ?l) (not (wired)))))

@@ -1,0 +1,1 @@
+(define (domain a)) (define (problem b) (:domain a)) (define (domain c) (:predicates (p)))

@@ -1,0 +1,5 @@
+(define (domain t) (:requirements :typing)
+ (:types a b - c d e - (either a b) c - object f - g g - f)
+ (:constants x y - a z - (either b e) w)
+ (:predicates (p ?x ?y - a ?z - (either b e)) (q ?x -a) (r ?x- a ?y))
+ (:action m :parameters (?x - nothing ?x - a) :effect (p ?x x z)))

@@ -1,0 +1,1 @@
+(define (domain d) (:action a :parameters (?x - t) :precondition (and (p ?x)) :effect (forall (?y) (when (q ?y) (and (not (p ?y)) (increase (total-cost) (* 2 (length ?x ?y)))))) :extra :field) (:durative-action b :duration (= ?duration 5) :condition (at start (p)) :effect (at end (p))) (:derived (r) (p)))

@@ -1,0 +1,9 @@
+;@ (:a
+;@  :b)
+(define (domain d)
+   ;@ (:c)
+   ;; d
+;@ (:e)
+(:predicates
+;@ (:f)
+(p)))

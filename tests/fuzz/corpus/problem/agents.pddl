@@ -1,0 +1,1 @@
+(define (problem p) (:domain post) (:requirements :factored-privacy) (:objects hall - room (:private anna - clerk (:private b - van)) (:private c)) (:init (idle anna) (concurrent a b)) (:goal (and)) (:agents anna))

@@ -1,0 +1,1 @@
+(define (problem p) (:domain post) (:objects a1 a2 a3 a4 a5 a6 a7 - room) (:init (door a1 a2) (door a2 a3) (door a3 a4) (door a4 a5)) (:goal (and (near a1 a5) (not (near a5 a1)) (imply (near a6 a7) (sorted)))))

@@ -1,0 +1,1 @@
+(define (problem p) (:domain lamp) (:objects x y - bulb) (:init (lit x) (broken y)) (:goal (and (lit y) (lit x))))

@@ -1,0 +1,6 @@
+(define (problem tuesday) (:domain post)
+ (:objects anna - clerk v1 v2 - van desk - room quay - street card - letter box - parcel)
+ (:init (at anna hall) (idle anna) (at v1 quay) (carries v2 card) (door hall quay) (door quay hall) (not (raining)) (= (length hall quay) 2.5) (= (fuel v1) 10) (= (home anna) hall) (= (total-cost) 0) (at 5 (raining)) (at 7.5 (not (raining))) (at 9 (= (fuel v1) 3)))
+ (:goal (and (at card quay) (preference early (at box hall)) (forall (?v - van) (or (at ?v hall) (>= (fuel ?v) 2)))))
+ (:constraints (and (always (forall (?v - van) (>= (fuel ?v) 1))) (preference dry (sometime (raining)))))
+ (:metric minimize (+ (total-cost) (* 2 (is-violated early)) (- (total-time)))))

@@ -1,0 +1,2 @@
+﻿(DEFINE(PROBLEM P)(:DOMAIN Post)(:OBJECTS Anna -CLERK)(:INIT(AT anna HALL)(IDLE ANNA))(:GOAL(NOT(IDLE Anna))))
+; end

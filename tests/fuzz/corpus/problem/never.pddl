@@ -1,0 +1,1 @@
+(define (problem p) (:domain post) (:objects c - clerk l - letter r - room) (:init (at c r) (idle c) (at l hall)) (:goal (exists (?i - item) (and (stamped ?i) (not (= ?i ?i))))) (:metric minimize (total-cost)))

@@ -1,0 +1,1 @@
+(define (problem p) (:domain post) (:init (= (length hall hall) 1e400) (= (length hall hall) -0.0000000000000000000000000000001) (= (total-cost) 79228162514264337593543950336) (= (total-cost) +5.) (= (total-cost) .5e-3)) (:goal (>= (total-cost) 0.1)))

@@ -1,0 +1,1 @@
+(define (problem p) (:domain post) (:objects c - clerk) (:init (at c hall) (idle c) (sorted)) (:goal (and (sorted) (at c hall))))

@@ -1,0 +1,1 @@
+(define (problem p) (:domain post) (:init) (:goal (sorted)))

@@ -1,0 +1,1 @@
+((:init((:goal(:init)(:GOAL (:action(:action)):types(:types

@@ -1,0 +1,4 @@
+(define (domain d))
+ (:predicates (p)))
+ (:action a :effect (p))))) ; end
+)

@@ -1,0 +1,23 @@
+(:action unscrew
+  :agent ?a - agent
+  :parameters (?1 - lid ?bot - bottle)
+  :precondition (and
+    (not (inHand ?l ?a))
+    (closed ?bot ?l) ; bottle is closed by a lid
+    (exists (hold ?bot ?l)))
+:effect (and
+    (inHand ?l ?a)
+    (not (closed ?bot ?l)))
+)
+
+(:action hold
+  :agent ?a - agent
+  :parameters (?bot - bottle ?l - lid)
+  :precondition (and
+    (inHand ?bot ?a)
+    (closed ?bot ?l)
+    (exists (unscrew ?bot ?l)))
+  :effect (and
+    (inHand ?bot ?a)
+    (not (closed ?bot ?l)))
+)
