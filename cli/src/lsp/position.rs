@@ -24,6 +24,14 @@ impl Encoding {
         known.unwrap_or_default()
     }
 
+    /// How much a piece of a text counts.
+    pub fn units(self, text: &str) -> u32 {
+        match self {
+            Self::Utf8 => text.len() as u32,
+            Self::Utf16 => text.encode_utf16().count() as u32,
+        }
+    }
+
     /// As the protocol names it.
     pub fn kind(self) -> PositionEncodingKind {
         match self {

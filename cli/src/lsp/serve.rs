@@ -89,7 +89,7 @@ impl Server {
                 let done = fault::contain(STACK, || self.notification(notification));
                 self.complain(done);
             }
-            // The only requests that the server makes are to be told of changes; whether it is does not matter.
+            // The server asks for nothing.
             Message::Response(_) => {}
         }
     }
@@ -157,7 +157,6 @@ impl Server {
         }
         let Notification { method, params } = notification;
         match method.as_str() {
-            "initialized" => self.watch(),
             "textDocument/didOpen" => {
                 if let Some(DidOpenTextDocumentParams { text_document: one }) = read(params) {
                     self.folder.open(one.uri, one.version, one.text);
@@ -219,25 +218,6 @@ impl Server {
         }
     }
 
-    /// Asks to be told of files that change outside the editor.
-    fn watch(&mut self) {
-        if !self.client.watches {
-            return;
-        }
-        let watchers: Vec<Value> = ["**/*.{pddl,hddl,plan}", "**/sas_plan*"]
-            .iter()
-            .map(|pattern| json!({ "globPattern": pattern }))
-            .collect();
-        let registration = json!({
-            "id": "files",
-            "method": "workspace/didChangeWatchedFiles",
-            "registerOptions": { "watchers": watchers },
-        });
-        let parameters = json!({ "registrations": [registration] });
-        let id = "watch".to_owned().into();
-        self.send(Request::new(id, "client/registerCapability".to_owned(), parameters));
-    }
-
     /// Whether there may be something new to say.
     pub fn has_to_look(&self) -> bool {
         self.stale
@@ -250,7 +230,11 @@ impl Server {
             return;
         }
         let folder = &mut self.folder;
-        match fault::contain(STACK, move || diagnose::all(folder)) {
+        let look = move || {
+            folder.refresh_partners();
+            diagnose::all(folder)
+        };
+        match fault::contain(STACK, look) {
             Ok(found) => self.publish(found),
             Err(fault) => self.complain(Err(fault)),
         }

@@ -14,7 +14,7 @@ pub(super) fn workspace(texts: &[&str]) -> (Workspace, SourceId, u32) {
     let mut cursor = None;
     let (mut domain, mut problem) = (None, None);
     for (at, text) in texts.iter().enumerate() {
-        let plan = !text.contains("(define");
+        let plan = problem.is_some() && !text.contains("(define");
         let id = workspace.add(format!("{at}.pddl"), text.replacen(CURSOR, "", 1), plan);
         if let Some(offset) = text.find(CURSOR) {
             cursor = Some((id, offset as u32));
@@ -31,24 +31,6 @@ pub(super) fn workspace(texts: &[&str]) -> (Workspace, SourceId, u32) {
     }
     let (id, offset) = cursor.unwrap_or((SourceId(1), 0));
     (workspace, id, offset)
-}
-
-/// Each text after edits.
-pub(super) fn edited(
-    workspace: &Workspace,
-    edits: &[(crate::source::Span, String)],
-) -> Vec<String> {
-    let mut sorted = edits.to_vec();
-    sorted.sort_by_key(|(span, _)| *span);
-    let ids = workspace.sources().ids().skip(1);
-    ids.map(|id| {
-        let mut text = workspace.text(id).to_owned();
-        for (span, new) in sorted.iter().rev().filter(|(span, _)| span.source == id) {
-            text.replace_range(span.start as usize..span.end as usize, new);
-        }
-        text
-    })
-    .collect()
 }
 
 /// A domain with something of everything, and a problem of it.

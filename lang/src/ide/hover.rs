@@ -3,8 +3,7 @@
 use std::fmt::Write;
 
 use super::outline::{self, Section};
-use super::{Target, Workspace, comment, words};
-use crate::ast::ActionKind;
+use super::{Target, Workspace, comment, glossary, words};
 use crate::model::{Doing, Domain, Signature, TypeId, Variable};
 use crate::source::{SourceId, Span};
 use crate::symbol::{Namespace, Occurrence, Role, Symbol};
@@ -12,9 +11,23 @@ use crate::tree::Tree;
 
 /// What there is to say of the name at `offset`, and where that name stands.
 pub fn hover(workspace: &Workspace, id: SourceId, offset: u32) -> Option<(Span, String)> {
-    let at = workspace.at(id, offset)?;
+    let Some(at) = workspace.at(id, offset) else { return keyword(workspace, id, offset) };
     let target = workspace.target(id, at.symbol)?;
     Some((at.span, describe(workspace, id, target)?))
+}
+
+/// What a word of the language means.
+fn keyword(workspace: &Workspace, id: SourceId, offset: u32) -> Option<(Span, String)> {
+    let tree = workspace.tree(id);
+    let path = super::path(&tree, offset);
+    let [.., list, word] = path.as_slice() else { return None };
+    let spelling = tree.slice(*word);
+    let heads = tree.children(*list).next() == Some(*word);
+    if tree.is_list(*word) || !heads && !spelling.starts_with(':') {
+        return None;
+    }
+    let meaning = glossary::meaning(spelling)?;
+    Some((tree.span(*word), format!("`{spelling}`: {meaning}\n")))
 }
 
 /// The declaration, what its author says of it, and what is done with it.
@@ -107,10 +120,7 @@ pub(super) fn signature_at(domain: &Domain, declared: u32) -> Option<&Signature>
 fn signature(domain: &Domain, name: &str, declared: u32) -> Option<String> {
     let found = signature_at(domain, declared)?;
     let keyword = match found.doing {
-        Doing::Action(ActionKind::Instant) => ":action",
-        Doing::Action(ActionKind::Durative) => ":durative-action",
-        Doing::Action(ActionKind::Process) => ":process",
-        Doing::Action(ActionKind::Event) => ":event",
+        Doing::Action(kind) => kind.keyword(),
         Doing::Task => ":task",
     };
     let shown: Vec<String> =

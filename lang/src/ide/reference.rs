@@ -11,6 +11,17 @@ pub fn definition(workspace: &Workspace, id: SourceId, offset: u32) -> Vec<Span>
     target.map(|target| workspace.declarations(target)).unwrap_or_default()
 }
 
+/// Where the predicate at `offset` is made true, or the function gets a value.
+pub fn achievers(workspace: &Workspace, id: SourceId, offset: u32) -> Vec<Span> {
+    let at = workspace.at(id, offset);
+    let Some(target) = at.and_then(|at| workspace.target(id, at.symbol)) else { return Vec::new() };
+    let home = workspace.analysis(target.home).occurrences.list.iter();
+    let gives = |one: &&Occurrence| {
+        one.symbol == target.symbol && matches!(one.role, Role::Add | Role::Write)
+    };
+    home.filter(gives).map(|one| one.span).collect()
+}
+
 /// Every place at which the name at `offset` stands, in all texts; with the declaration only if that is asked for.
 pub fn references(
     workspace: &Workspace,

@@ -91,7 +91,14 @@ pub(super) fn repair(
 fn pieces(text: &str, tokens: &[Token], start: u32, end: u32) -> Vec<Piece> {
     let mut pieces = Vec::new();
     let mut starts_line = start == 0;
+    let mut wrapped = start;
     for index in start..end {
+        if starts_line && index >= wrapped {
+            wrapped = comment_end(text, tokens, index, end);
+        }
+        if index < wrapped {
+            continue;
+        }
         let token = tokens[index as usize];
         let slice = &text[token.start as usize..token.end as usize];
         let kind = match token.kind {
@@ -109,6 +116,25 @@ fn pieces(text: &str, tokens: &[Token], start: u32, end: u32) -> Vec<Piece> {
         pieces.push(Piece { kind, token: index, indent: indent.map(|indent| indent as u32) });
     }
     pieces
+}
+
+/// The token after the words that start at `index`, if they have a line of their own below a comment: that comment was wrapped, and they belong to it.
+fn comment_end(text: &str, tokens: &[Token], index: u32, end: u32) -> u32 {
+    let breaks = |token: &Token| {
+        token.kind == TokenKind::Space
+            && text[token.start as usize..token.end as usize].contains(['\n', '\r'])
+    };
+    let (before, after) = tokens[..end as usize].split_at(index as usize);
+    let below = matches!(before, [.., comment, blank] if comment.kind == TokenKind::Comment && breaks(blank));
+    let words = after
+        .iter()
+        .take_while(|token| {
+            !breaks(token) && matches!(token.kind, TokenKind::Atom | TokenKind::Space)
+        })
+        .count();
+    let alone = after.get(words).is_none_or(breaks);
+    let keyword = after.first().is_some_and(|token| text[token.start as usize..].starts_with(':'));
+    if below && alone && words > 0 && !keyword { index + words as u32 } else { index }
 }
 
 /// A parenthesis that is tried.
@@ -232,6 +258,9 @@ impl Search<'_> {
 
     /// The cost with a change, if it is not more than `limit`.
     fn cost(&mut self, state: &State, change: Change, place: usize, limit: Cost) -> Option<Cost> {
+        if change == Change::Open && state.is_in_words() {
+            return None;
+        }
         let mut state = state.clone();
         let (changed, rest) = self.changed(change, place);
         changed.into_iter().flatten().for_each(|piece| state.step(piece));

@@ -103,6 +103,12 @@ impl State {
         self.stack.len()
     }
 
+    /// Whether the value of a field is being read that is written in words: a list there would hide whatever follows.
+    pub(super) fn is_in_words(&self) -> bool {
+        let list = self.stack.last();
+        list.is_some_and(|list| list.kind == Kind::Fields && list.last == Last::Field(Role::Words))
+    }
+
     /// Reads one more.
     pub(super) fn step(&mut self, piece: Piece) {
         if let Some(indent) = piece.indent {
@@ -224,13 +230,14 @@ impl Frame {
                 _ => (Role::Formula, true),
             },
             Kind::Declarations => (Role::Declaration, false),
-            Kind::Names { .. } | Kind::Variables => (Role::Part, false),
+            Kind::Names { .. } => (Role::Part, false),
+            // Only `(either …)` stands there.
+            Kind::Variables => (Role::Part, last != Last::Dash),
             Kind::Facts | Kind::Loose => (Role::Formula, false),
             Kind::Formulas { most, .. } => (Role::Formula, given >= most),
             Kind::Derived if given == 0 => (Role::Declaration, false),
-            Kind::Derived => (Role::Formula, given > 1),
             Kind::Quantifier if given == 0 => (Role::Variables, false),
-            Kind::Quantifier => (Role::Formula, given > 1),
+            Kind::Derived | Kind::Quantifier => (Role::Formula, given > 1),
             Kind::Operands => (Role::Expression, given > 1),
             Kind::Arithmetic => (Role::Expression, false),
             Kind::Timed => (Role::Formula, last == Last::List),
@@ -308,7 +315,8 @@ impl Frame {
             (Role::Title, _) => (Kind::Title, word != Word::Title),
             (Role::Section, Word::Keyword(kind, _)) => (kind, kind == Kind::Free),
             (Role::Section, _) => (Kind::Free, true),
-            (Role::Declaration | Role::Part, Word::Keyword(..)) => (Kind::Free, false),
+            (Role::Declaration | Role::Part, Word::Keyword(..))
+            | (Role::Top | Role::Words | Role::Free, _) => (Kind::Free, false),
             (Role::Declaration, _) => (Kind::Variables, !name),
             (Role::Part, _) => (Kind::Words, word != Word::Either),
             (Role::Variables, _) => {
@@ -320,7 +328,6 @@ impl Frame {
             }
             (Role::Expression, Word::Dash) => (Kind::Arithmetic, false),
             (Role::Formula | Role::Expression, _) => (Kind::Atom, !name),
-            (Role::Top | Role::Words | Role::Free, _) => (Kind::Free, false),
         };
         self.kind = kind;
         odd
