@@ -12,7 +12,7 @@
 //!   Only uses are misspelt: a declaration that is misspelt cannot be told from uses that are.
 //!   What is used and never declared, such as a type that stands after a `-` in `:types` only, counts as declaration.
 //!   It does not count if the new word exists too, in the same role: that is another text and not a misspelt one;
-//!   and a word must have two letters at least, since nothing is left of a single one.
+//!   and a single letter is neither dropped nor changed, since nothing would be left of the word.
 //! - A dropped argument counts where a predicate or a function that is declared once is applied.
 //!   Right are the lines of the atom.
 //! - Swapped arguments count where one of the two may not stand where the other stood, by the declared types.
@@ -182,13 +182,11 @@ fn parenthesis(kind: Kind, text: &Text<'_>, random: &mut Random) -> Option<Mutat
 fn misspell(word: &str, random: &mut Random) -> Option<String> {
     let letters: Vec<usize> =
         word.char_indices().filter(|(_, c)| c.is_ascii_alphabetic()).map(|(at, _)| at).collect();
-    if letters.len() < 2 {
-        return None;
-    }
     let at = *random.pick(&letters)?;
     let letter = ["a", "c", "e", "i", "l", "n", "o", "r", "s", "t"][random.below(10)];
     let mut broken = word.to_owned();
-    match random.below(4) {
+    let way = if letters.len() < 2 { 2 } else { random.below(4) };
+    match way {
         0 => {
             let next = letters.iter().copied().find(|&next| next == at + 1)?;
             let pair = format!("{}{}", &word[next..=next], &word[at..=at]);
@@ -259,9 +257,14 @@ fn name(namespace: Namespace, text: &Text<'_>, random: &mut Random) -> Option<Mu
         }
     }
     let broken = misspell(text.slice(span.start, span.end), random)?;
-    let taken = text.is_taken(namespace, &broken)
-        || namespace == Namespace::Predicate && text.is_taken(Namespace::Function, &broken)
-        || namespace == Namespace::Function && text.is_taken(Namespace::Predicate, &broken)
+    let within = match namespace {
+        // Another action may have a variable of that name.
+        Namespace::Variable => text.section_at(span.start).map(|(section, _)| section),
+        _ => None,
+    };
+    let taken = text.is_taken(namespace, &broken, within)
+        || namespace == Namespace::Predicate && text.is_taken(Namespace::Function, &broken, None)
+        || namespace == Namespace::Function && text.is_taken(Namespace::Predicate, &broken, None)
         || WORDS.iter().any(|word| word.eq_ignore_ascii_case(&broken));
     (!taken).then(|| replaced(text, span.start, span.end, &broken))
 }
@@ -292,7 +295,7 @@ fn keyword(kind: Kind, text: &Text<'_>, random: &mut Random) -> Option<Mutation>
     }
     let node = tree.node(*random.pick(&words)?);
     let broken = misspell(text.slice(node.start, node.end), random)?;
-    let taken = text.is_taken(Namespace::Predicate, &broken)
+    let taken = text.is_taken(Namespace::Predicate, &broken, None)
         || words.iter().any(|&word| tree.slice(word).eq_ignore_ascii_case(&broken))
         || WORDS.iter().any(|word| word.eq_ignore_ascii_case(&broken));
     (!taken).then(|| replaced(text, node.start, node.end, &broken))

@@ -47,8 +47,8 @@ impl<'a> Text<'a> {
         uses
     }
 
-    /// Whether some name of the kind is spelt so, here or in the domain.
-    pub fn is_taken(&self, namespace: Namespace, word: &str) -> bool {
+    /// Whether some name of the kind is spelt so: in a list of the text if one is given, else in the text or the domain.
+    pub fn is_taken(&self, namespace: Namespace, word: &str, within: Option<NodeId>) -> bool {
         let constants = self.domain.constants.iter().map(|object| object.name.text.as_str());
         let elsewhere: Vec<&str> = match namespace {
             Namespace::Predicate => {
@@ -61,7 +61,11 @@ impl<'a> Text<'a> {
             Namespace::Object => constants.collect(),
             _ => Vec::new(),
         };
-        let mut here = self.names.iter().filter(|one| one.symbol.namespace() == namespace);
+        let range = within.map(|list| self.tree.node(list));
+        let mut here = self.names.iter().filter(|one| {
+            one.symbol.namespace() == namespace
+                && range.is_none_or(|list| (list.start..list.end).contains(&one.span.start))
+        });
         elsewhere.iter().any(|other| other.eq_ignore_ascii_case(word))
             || here.any(|one| self.slice(one.span.start, one.span.end).eq_ignore_ascii_case(word))
     }
@@ -95,6 +99,22 @@ impl<'a> Text<'a> {
                 node.start < at && at < node.end
             })
             .last()
+    }
+}
+
+/// The text with its lines as they are wanted.
+pub fn layout(text: String, how: Option<&str>) -> String {
+    let bare = |text: &str| {
+        let tokens = lexer::lex(text);
+        let kept = tokens.iter().filter(|token| token.kind != TokenKind::Comment);
+        kept.map(|token| &text[token.start as usize..token.end as usize]).collect::<String>()
+    };
+    match how {
+        Some("line") => bare(&text).split_whitespace().collect::<Vec<_>>().join(" "),
+        Some("flat") => text.lines().map(str::trim).collect::<Vec<_>>().join("\n"),
+        Some("ours") => lang::format::format(&text).unwrap_or(text),
+        Some(other) => panic!("there is no layout `{other}`"),
+        None => text,
     }
 }
 

@@ -1,6 +1,6 @@
 #![doc = include_str!("unclosed_paren.md")]
 
-use super::{Diagnostic, Rule, Severity};
+use super::{Diagnostic, Label, Rule, Severity};
 use crate::source::Span;
 
 /// The kind `unclosed-paren`.
@@ -52,6 +52,16 @@ pub fn inside(
         diagnostic = diagnostic.label(span, format!("`{word}` cannot stand inside of it"));
     }
     diagnostic.fix(format!("insert `{missing}`"), place, missing).safely()
+}
+
+/// Adds to a message about a `)` that is missing that the one at `span` is too many: it stands in the wrong place.
+pub fn instead(diagnostic: &mut Diagnostic, span: Span) {
+    let label = Label { span, text: "and here is one too many".to_owned() };
+    diagnostic.secondary.push(label);
+    if let Some(fix) = diagnostic.fixes.first_mut() {
+        fix.title.push_str(", and remove the one that is too many");
+        fix.edits.push((span, String::new()));
+    }
 }
 
 /// A `(` is one too many.

@@ -1,6 +1,6 @@
 #![doc = include_str!("unexpected_close_paren.md")]
 
-use super::{Diagnostic, Rule, Severity};
+use super::{Diagnostic, Label, Rule, Severity};
 use crate::source::Span;
 
 /// The kind `unexpected-close-paren`.
@@ -37,6 +37,17 @@ fn stray(span: Span, label: &str) -> Diagnostic {
         .help("remove it")
         .fix("remove this `)`", span, "")
         .safely()
+}
+
+/// Adds to a message about a `)` that is too many that one is missing after `span`: it stands in the wrong place.
+pub fn instead(diagnostic: &mut Diagnostic, span: Span) {
+    let label = Label { span, text: "after this one is missing".to_owned() };
+    diagnostic.secondary.push(label);
+    diagnostic.help = Some("move it".to_owned());
+    if let Some(fix) = diagnostic.fixes.first_mut() {
+        fix.title = "move this `)`".to_owned();
+        fix.edits.push((Span { start: span.end, ..span }, ")".to_owned()));
+    }
 }
 
 /// A later `)` has no partner, because a `(` is missing before `word`.

@@ -144,7 +144,7 @@ impl Search<'_> {
         *self.steps = self.steps.checked_sub(self.pieces.len())?;
         let end = self.pieces.len();
         let mut first = First { odd: end, impossible: end, misplaced: None };
-        let mut state = State::new(self.base);
+        let mut state = State::new(self.base, self.depth);
         for (at, &piece) in self.pieces.iter().enumerate() {
             let before = state.cost;
             state.step(piece);
@@ -161,7 +161,7 @@ impl Search<'_> {
                 return None;
             }
         }
-        Some((first, state.finish(self.depth)))
+        Some((first, state.finish()))
     }
 
     /// The change with which the cost is least, if some change helps.
@@ -186,7 +186,7 @@ impl Search<'_> {
             Some(*line)
         }));
         let mut states = Vec::with_capacity(places.len());
-        let mut state = State::new(self.base);
+        let mut state = State::new(self.base, self.depth);
         let mut read = 0;
         for &place in &places {
             self.pieces[read..place].iter().for_each(|&piece| state.step(piece));
@@ -246,7 +246,7 @@ impl Search<'_> {
             state.step(piece);
         }
         *self.steps = self.steps.saturating_sub(self.pieces.len() - place);
-        let cost = state.finish(self.depth);
+        let cost = state.finish();
         (cost <= limit).then_some(cost)
     }
 

@@ -34,7 +34,7 @@ pub(super) struct Cost {
 }
 
 /// What a keyword in a wrong place costs. It is more than a parenthesis, so that one may be inserted for it that is taken away elsewhere.
-const MISPLACED: u32 = 2;
+const MISPLACED: u32 = 3;
 
 /// What a word or a list in a wrong place costs, measured in lines that are indented oddly.
 pub(super) const UNEXPECTED: u32 = 6;
@@ -71,6 +71,8 @@ struct Frame {
 #[derive(Debug, Clone)]
 pub(super) struct State {
     stack: Vec<Frame>,
+    /// How many lists are to be open at the end.
+    floor: usize,
     pub(super) cost: Cost,
     /// Whether a whole list has ended outside of all others.
     ended: bool,
@@ -79,8 +81,8 @@ pub(super) struct State {
 }
 
 impl State {
-    /// Before the definition, or directly in it.
-    pub(super) fn new(depth: u32) -> Self {
+    /// Before the definition, or directly in it; `floor` lists stay open to the end.
+    pub(super) fn new(depth: u32, floor: usize) -> Self {
         let definition = Frame {
             kind: Kind::Definition,
             given: 1,
@@ -91,6 +93,7 @@ impl State {
         };
         Self {
             stack: vec![definition; depth as usize],
+            floor,
             cost: Cost::default(),
             ended: false,
             line: 0,
@@ -115,10 +118,10 @@ impl State {
         }
     }
 
-    /// The cost if the text ends here, where `depth` lists should be open.
-    pub(super) fn finish(mut self, depth: usize) -> Cost {
-        self.cost.impossible += self.stack.len().abs_diff(depth) as u32;
-        while self.stack.len() > depth {
+    /// The cost if the text ends here.
+    pub(super) fn finish(mut self) -> Cost {
+        self.cost.impossible += self.stack.len().abs_diff(self.floor) as u32;
+        while self.stack.len() > self.floor {
             self.close();
         }
         self.cost
@@ -172,6 +175,7 @@ impl State {
         };
         self.cost.odd += UNEXPECTED * u32::from(list.is_unfinished());
         self.ended |= self.stack.is_empty();
+        self.cost.impossible += u32::from(self.stack.len() < self.floor);
     }
 
     fn word(&mut self, word: Word) {
@@ -225,13 +229,15 @@ impl Frame {
             },
             Kind::Declarations => (Role::Declaration, false),
             Kind::Names { .. } | Kind::Variables => (Role::Part, false),
-            Kind::Facts | Kind::Loose => (Role::Formula, false),
+            Kind::Facts => (Role::Fact, false),
+            Kind::Loose => (Role::Formula, false),
             Kind::Formulas { most, .. } => (Role::Formula, given >= most),
             Kind::Derived if given == 0 => (Role::Declaration, false),
             Kind::Derived => (Role::Formula, given > 1),
             Kind::Quantifier if given == 0 => (Role::Variables, false),
             Kind::Quantifier => (Role::Formula, given > 1),
-            Kind::Operands => (Role::Expression, given > 1),
+            Kind::Operands | Kind::Value => (Role::Expression, given > 1),
+            Kind::Metric => (Role::Expression, given != 1),
             Kind::Arithmetic => (Role::Expression, false),
             Kind::Timed => (Role::Formula, last == Last::List),
             Kind::At | Kind::Atom => (Role::Formula, true),
@@ -288,6 +294,8 @@ impl Frame {
             }
             Kind::Atom => leads || word == Word::Dash,
             Kind::Operands => leads || given > 1,
+            Kind::Value => leads || given != 1,
+            Kind::Metric => leads || given > 0,
             Kind::Title => given > 0,
             Kind::Arithmetic | Kind::Loose | Kind::Free => false,
             Kind::New(_)
@@ -315,11 +323,12 @@ impl Frame {
                 self.kind = Kind::Variables;
                 return self.word(word);
             }
-            (Role::Formula | Role::Expression, Word::Connective(kind) | Word::Ambiguous(kind)) => {
-                (kind, false)
-            }
+            (Role::Fact, Word::Connective(Kind::Operands)) => (Kind::Value, false),
+            (Role::Formula | Role::Fact, Word::Connective(kind)) => (kind, false),
+            (Role::Expression, Word::Connective(kind)) => (kind, true),
+            (Role::Formula | Role::Fact | Role::Expression, Word::Ambiguous(kind)) => (kind, false),
             (Role::Expression, Word::Dash) => (Kind::Arithmetic, false),
-            (Role::Formula | Role::Expression, _) => (Kind::Atom, !name),
+            (Role::Formula | Role::Fact | Role::Expression, _) => (Kind::Atom, !name),
             (Role::Top | Role::Words | Role::Free, _) => (Kind::Free, false),
         };
         self.kind = kind;
@@ -333,7 +342,9 @@ impl Frame {
             Kind::Definition => self.given == 0,
             Kind::Fields => matches!(self.last, Last::Field(role) if role != Role::Words),
             Kind::Formulas { least, .. } => self.given < least,
-            Kind::Derived | Kind::Quantifier | Kind::Operands => self.given < 2,
+            Kind::Derived | Kind::Quantifier | Kind::Operands | Kind::Value | Kind::Metric => {
+                self.given < 2
+            }
             Kind::Timed => self.last != Last::List,
             Kind::Variables | Kind::Names { .. } => self.last == Last::Dash,
             _ => false,

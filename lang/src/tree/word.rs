@@ -31,6 +31,10 @@ pub(super) enum Kind {
     Quantifier,
     /// Two words or lists.
     Operands,
+    /// A function in parentheses and its value.
+    Value,
+    /// `(:metric minimize …)`
+    Metric,
     /// `(at …)` and `(over …)`, of which the next word says whether it is about time.
     At,
     /// `(at start FORMULA)`
@@ -59,6 +63,8 @@ pub(super) enum Role {
     Declaration,
     Variables,
     Formula,
+    /// Of the initial state.
+    Fact,
     Expression,
     /// `(either …)` and `(:private …)`
     Part,
@@ -125,7 +131,7 @@ impl Word {
             "forall" | "exists" => Self::Connective(Kind::Quantifier),
             "=" | "<" | ">" | "<=" | ">=" => Self::Connective(Kind::Operands),
             "increase" | "decrease" | "assign" | "scale-up" | "scale-down" => {
-                Self::Ambiguous(Kind::Operands)
+                Self::Ambiguous(Kind::Value)
             }
             "preference" | "always" | "sometime" | "within" | "at-most-once" | "sometime-after"
             | "sometime-before" | "always-within" | "hold-during" | "hold-after" | "oneof"
@@ -153,6 +159,7 @@ fn section(keyword: &str) -> Kind {
         | ":concurrency-constraint" => Kind::Fields,
         ":derived" => Kind::Derived,
         ":init" => Kind::Facts,
+        ":metric" => Kind::Metric,
         ":goal" | ":constraints" => exactly(1),
         _ => Kind::Free,
     }
