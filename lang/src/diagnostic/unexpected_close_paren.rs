@@ -45,7 +45,7 @@ pub fn instead(diagnostic: &mut Diagnostic, span: Span) {
     diagnostic.secondary.push(label);
     diagnostic.help = Some("move it".to_owned());
     if let Some(fix) = diagnostic.fixes.first_mut() {
-        fix.title = "move this `)`".to_owned();
+        "move this `)`".clone_into(&mut fix.title);
         fix.edits.push((Span { start: span.end, ..span }, ")".to_owned()));
     }
 }
@@ -77,6 +77,86 @@ mod tests {
         check(&["(define (domain d)
   (:predicates (p)))))
 ;                   ^ E0002: this `)` has no matching `(`
+"]);
+    }
+
+    #[test]
+    fn one_that_ends_an_action_too_early_is_dropped() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:predicates (p) (q))
+  (:action a
+    :parameters ()
+    :precondition (and (p)) (q))
+;                         ^ E0002: this `)` has no matching `(`
+    :effect (p))
+  (:action b
+    :parameters ())
+;                 ^ E0002: this `)` has no matching `(`
+    :effect (q))
+)
+"]);
+    }
+
+    #[test]
+    fn indentation_shows_which_one_was_meant() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:predicates (p) (q))
+  (:action a
+    :parameters ()
+    :effect (and
+      (p)
+      (q))
+;        ^ E0002: this `)` has no matching `(`
+    )
+  )
+  (:action b
+    :effect (and
+      (p)
+    )
+  )
+  )
+; ^ E0002: this `)` has no matching `(`
+)
+"]);
+    }
+
+    #[test]
+    fn one_that_stands_in_the_wrong_place_is_one_mistake() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:predicates (p))
+  (:action a
+    :parameters ()
+    :effect (p)))
+;               ^ E0002: this `)` has no matching `(`
+  (:action b
+    :effect (p))
+"]);
+    }
+
+    #[test]
+    fn where_an_open_one_is_missing() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:predicates p ?x ?y) (q))
+;              ^ E0002: a `(` is missing before `p`
+  (:action a
+    :parameters ?x ?y)
+;               ^^ E0002: a `(` is missing before `?x`
+    :effect (p ?x ?y))
+  (:action b
+    :precondition and (q) (not (q)))
+;                 ^^^ E0002: a `(` is missing before `and`
+    :effect (q))
+  (:action c
+    :effect (not q)))
+;                ^ E0002: a `(` is missing before `q`
+  :action d
+; ^^^^^^^ E0002: a `(` is missing before `:action`
+    :effect (q))
+)
 "]);
     }
 }

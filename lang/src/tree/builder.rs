@@ -90,7 +90,7 @@ pub fn parse<'a>(source: SourceId, text: &'a str, diagnostics: &mut Diagnostics)
         open: Vec::new(),
         floor: 0,
         start: 0,
-        end: 0,
+        last: Span::new(source, 0, 0),
         dropped: None,
         unpaired: Vec::new(),
         diagnostics,
@@ -125,8 +125,8 @@ struct Builder<'a, 't, 'd> {
     floor: usize,
     /// The token with which the section at hand starts.
     start: u32,
-    /// Where the last parenthesis or word ends.
-    end: u32,
+    /// The last parenthesis or word.
+    last: Span,
     /// The last parenthesis that was dropped, with the position of the message about it.
     dropped: Option<(u32, usize)>,
     /// The `)` that were missing, and those that were too many, until one of the other kind turns up.
@@ -174,7 +174,7 @@ impl Builder<'_, '_, '_> {
             edits = &edits[count..];
             let token = self.tokens[at as usize];
             if !outline::is_trivia(token.kind) {
-                self.end = token.end;
+                self.last = Span::new(self.source, token.start, token.end);
             }
             // What is missing at the end of a section is closed where the next one starts.
             let goes_on = || after.0.iter().any(|token| !outline::is_trivia(token.kind));
@@ -331,22 +331,21 @@ impl Builder<'_, '_, '_> {
             &self.heading(first),
             keyword,
             self.slice(keyword),
-            (Span::new(self.source, self.end, self.end), missing),
+            (Span { start: self.last.end, ..self.last }, missing),
         ));
         self.missing(missing);
-        self.close_open(depth, self.end);
+        self.close_open(depth, self.last.end);
     }
 
     fn finish(&mut self) {
         if self.open.is_empty() {
             return;
         }
-        let end = self.end;
+        let end = self.last.end;
         if self.open.len() == 1
             && let Some(message) = self.pair(false, true)
         {
-            let last = Span::new(self.source, end.saturating_sub(1), end);
-            unexpected_close_paren::instead(&mut self.diagnostics.list[message], last);
+            unexpected_close_paren::instead(&mut self.diagnostics.list[message], self.last);
             return self.close_open(0, end);
         }
         // The innermost section says most; where there is none, the definition does.

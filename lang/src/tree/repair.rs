@@ -52,6 +52,9 @@ const DEEP: usize = 400;
 /// What it costs to leave out a parenthesis at the start of a line, measured in lines that are indented oddly.
 const DELIBERATE: u32 = 3;
 
+/// How many steps it takes to go back to a place.
+const COPY: usize = 8;
+
 /// How many steps the repairs of one text may take, so that a text full of mistakes is read fast too.
 pub(super) const STEPS: usize = 6_000_000;
 
@@ -89,7 +92,7 @@ pub(super) fn repair(
 
 /// The parentheses and words of a part of the text.
 fn pieces(text: &str, tokens: &[Token], start: u32, end: u32) -> Vec<Piece> {
-    let mut pieces = Vec::new();
+    let mut pieces: Vec<Piece> = Vec::new();
     let mut starts_line = start == 0;
     for index in start..end {
         let token = tokens[index as usize];
@@ -102,7 +105,10 @@ fn pieces(text: &str, tokens: &[Token], start: u32, end: u32) -> Vec<Piece> {
             TokenKind::Comment => continue,
             TokenKind::Open => PieceKind::Open,
             TokenKind::Close => PieceKind::Close,
-            TokenKind::Atom => PieceKind::Word(Word::read(slice)),
+            TokenKind::Atom => {
+                let first = pieces.last().is_none_or(|last| last.kind == PieceKind::Open);
+                PieceKind::Word(Word::read(slice, first))
+            }
         };
         let starts = std::mem::replace(&mut starts_line, false) || index == start;
         let indent = outline::indent(text, token.start as usize).filter(|_| starts);
@@ -240,12 +246,12 @@ impl Search<'_> {
         state.cost.odd += DELIBERATE * u32::from(starts);
         for (read, &piece) in self.pieces.iter().skip(rest).enumerate() {
             if state.cost > limit {
-                *self.steps = self.steps.saturating_sub(read);
+                *self.steps = self.steps.saturating_sub(read + COPY);
                 return None;
             }
             state.step(piece);
         }
-        *self.steps = self.steps.saturating_sub(self.pieces.len() - place);
+        *self.steps = self.steps.saturating_sub(self.pieces.len() - place + COPY);
         let cost = state.finish();
         (cost <= limit).then_some(cost)
     }

@@ -219,7 +219,7 @@ impl Frame {
                     Role::Formula => Kind::Loose,
                     _ => Kind::Free,
                 };
-                if role == Role::Variables { (Role::Part, false) } else { (role, true) }
+                if role == Role::Variables { (Role::Type, false) } else { (role, true) }
             }
             Kind::Definition if given == 0 => (Role::Title, false),
             Kind::Definition => (Role::Section, false),
@@ -227,15 +227,15 @@ impl Frame {
                 Last::Field(role) => (role, false),
                 _ => (Role::Formula, true),
             },
-            Kind::Declarations => (Role::Declaration, false),
-            Kind::Names { .. } | Kind::Variables => (Role::Part, false),
+            Kind::Declarations | Kind::Private => (Role::Declaration, false),
+            Kind::Names { .. } => (Role::Part, false),
+            Kind::Variables => (Role::Type, last != Last::Dash),
             Kind::Facts => (Role::Fact, false),
             Kind::Loose => (Role::Formula, false),
             Kind::Formulas { most, .. } => (Role::Formula, given >= most),
             Kind::Derived if given == 0 => (Role::Declaration, false),
-            Kind::Derived => (Role::Formula, given > 1),
             Kind::Quantifier if given == 0 => (Role::Variables, false),
-            Kind::Quantifier => (Role::Formula, given > 1),
+            Kind::Derived | Kind::Quantifier => (Role::Formula, given > 1),
             Kind::Operands | Kind::Value => (Role::Expression, given > 1),
             Kind::Metric => (Role::Expression, given != 1),
             Kind::Arithmetic => (Role::Expression, false),
@@ -280,7 +280,7 @@ impl Frame {
                 Word::Dash => last != Last::List,
                 _ => last != Last::Dash,
             },
-            Kind::Variables => match word {
+            Kind::Variables | Kind::Private => match word {
                 Word::Variable => last == Last::Dash,
                 Word::Dash => last != Last::Word,
                 _ => last != Last::Dash || leads,
@@ -297,7 +297,13 @@ impl Frame {
             Kind::Value => leads || given != 1,
             Kind::Metric => leads || given > 0,
             Kind::Title => given > 0,
-            Kind::Arithmetic | Kind::Loose | Kind::Free => false,
+            Kind::Arithmetic => leads || word == Word::Name,
+            // A preference has a name.
+            Kind::Loose => match word {
+                Word::Name => given > 0,
+                _ => word != Word::Number,
+            },
+            Kind::Free => false,
             Kind::New(_)
             | Kind::Definition
             | Kind::Facts
@@ -316,17 +322,20 @@ impl Frame {
             (Role::Title, _) => (Kind::Title, word != Word::Title),
             (Role::Section, Word::Keyword(kind, _)) => (kind, kind == Kind::Free),
             (Role::Section, _) => (Kind::Free, true),
-            (Role::Declaration | Role::Part, Word::Keyword(..)) => (Kind::Free, false),
+            (Role::Declaration, Word::Keyword(..)) => (Kind::Private, false),
+            (Role::Part, Word::Keyword(..)) => (Kind::Names { keywords: false }, false),
             (Role::Declaration, _) => (Kind::Variables, !name),
-            (Role::Part, _) => (Kind::Words, word != Word::Either),
+            (Role::Type | Role::Part, _) => (Kind::Words, word != Word::Either),
             (Role::Variables, _) => {
                 self.kind = Kind::Variables;
                 return self.word(word);
             }
             (Role::Fact, Word::Connective(Kind::Operands)) => (Kind::Value, false),
-            (Role::Formula | Role::Fact, Word::Connective(kind)) => (kind, false),
             (Role::Expression, Word::Connective(kind)) => (kind, true),
-            (Role::Formula | Role::Fact | Role::Expression, Word::Ambiguous(kind)) => (kind, false),
+            (Role::Formula | Role::Fact, Word::Connective(kind))
+            | (Role::Formula | Role::Fact | Role::Expression, Word::Ambiguous(kind)) => {
+                (kind, false)
+            }
             (Role::Expression, Word::Dash) => (Kind::Arithmetic, false),
             (Role::Formula | Role::Fact | Role::Expression, _) => (Kind::Atom, !name),
             (Role::Top | Role::Words | Role::Free, _) => (Kind::Free, false),

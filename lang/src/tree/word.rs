@@ -19,6 +19,8 @@ pub(super) enum Kind {
     Fields,
     /// `(:predicates (p ?x) …)`
     Declarations,
+    /// `(:private ?a - agent (p ?x) …)`
+    Private,
     /// `(:objects a b - t …)`; keywords too in `(:requirements …)`.
     Names { keywords: bool },
     /// `(:init (p a) …)`
@@ -66,6 +68,8 @@ pub(super) enum Role {
     /// Of the initial state.
     Fact,
     Expression,
+    /// `(either …)`
+    Type,
     /// `(either …)` and `(:private …)`
     Part,
     /// Of a field whose value is written in words.
@@ -103,13 +107,17 @@ const fn exactly(count: u32) -> Kind {
 }
 
 impl Word {
-    /// What `text` is; the case does not matter.
-    pub(super) fn read(text: &str) -> Self {
+    /// What `text` is; the case does not matter. Only the first word of a list can be a misspelt section.
+    pub(super) fn read(text: &str, first: bool) -> Self {
         let lower = text.to_ascii_lowercase();
         let digits = text.trim_start_matches(['-', '+', '.']);
         match text.as_bytes()[0] {
-            b':' => return Self::Keyword(section(&lower), field(&lower)),
+            b':' => {
+                let meant = if first { outline::intended(&lower) } else { None };
+                return Self::Keyword(section(meant.unwrap_or(&lower)), field(&lower));
+            }
             b'?' => return Self::Variable,
+            b'#' => return Self::Number,
             _ if lexer::is_dash(text) => return Self::Dash,
             _ if digits
                 .bytes()
@@ -143,9 +151,9 @@ impl Word {
     }
 }
 
-/// What a section contains, by its keyword in lower case or the one that was probably meant.
+/// What a section contains, by its keyword in lower case.
 fn section(keyword: &str) -> Kind {
-    match outline::intended(keyword).unwrap_or(keyword) {
+    match keyword {
         ":requirements" => Kind::Names { keywords: true },
         ":types" | ":constants" | ":objects" | ":domain" => Kind::Names { keywords: false },
         ":predicates" | ":functions" => Kind::Declarations,
