@@ -9,7 +9,7 @@ use lang::tree::{self, NodeId, Tree};
 
 /// A text with everything that is known of it.
 pub struct Text<'a> {
-    pub text: &'a str,
+    pub whole: &'a str,
     /// Parentheses and words, without blanks and comments.
     pub tokens: Vec<Token>,
     pub tree: Tree<'a>,
@@ -33,11 +33,11 @@ impl<'a> Text<'a> {
             matches!(token.kind, TokenKind::Open | TokenKind::Close | TokenKind::Atom)
         });
         let tree = tree::parse(SourceId(0), text, &mut Diagnostics::default());
-        Self { text, tokens, tree, names: names.list, domain, is_domain }
+        Self { whole: text, tokens, tree, names: names.list, domain, is_domain }
     }
 
     pub fn slice(&self, start: u32, end: u32) -> &'a str {
-        &self.text[start as usize..end as usize]
+        &self.whole[start as usize..end as usize]
     }
 
     /// Names of the kind that are used, not declared.
@@ -92,13 +92,11 @@ impl<'a> Text<'a> {
     /// The innermost list around a byte.
     pub fn list_at(&self, at: u32) -> Option<NodeId> {
         let nodes = self.tree.nodes();
-        let lists = (0..nodes.len() as u32).map(NodeId).filter(|&id| self.tree.is_list(id));
-        lists
-            .filter(|&id| {
-                let node = self.tree.node(id);
-                node.start < at && at < node.end
-            })
-            .last()
+        let mut lists = (0..nodes.len() as u32).map(NodeId).filter(|&id| self.tree.is_list(id));
+        lists.rfind(|&id| {
+            let node = self.tree.node(id);
+            node.start < at && at < node.end
+        })
     }
 }
 
@@ -120,7 +118,7 @@ pub fn layout(text: String, how: Option<&str>) -> String {
 
 /// The line of a byte; the first has number one.
 pub fn line_of(text: &str, at: usize) -> usize {
-    1 + text.as_bytes()[..at.min(text.len())].iter().filter(|&&byte| byte == b'\n').count()
+    1 + text[..at].matches('\n').count()
 }
 
 /// Numbers that look random and are the same on every run: `SplitMix64`.

@@ -69,6 +69,7 @@ pub(super) fn repair(
 ) -> Repair {
     let mut search = Search {
         pieces: pieces(text, tokens, section.start, end),
+        closed: (end as usize == tokens.len()).then_some(0),
         lines: Vec::new(),
         base: section.depth,
         depth: depth as usize,
@@ -137,6 +138,8 @@ struct First {
 
 struct Search<'s> {
     pieces: Vec<Piece>,
+    /// How many lists end with the text, if these pieces are the last ones.
+    closed: Option<usize>,
     /// The number of the line on which each piece stands.
     lines: Vec<u32>,
     base: u32,
@@ -167,12 +170,12 @@ impl Search<'_> {
                 return None;
             }
         }
-        Some((first, state.finish()))
+        Some((first, finish(state, self.closed)))
     }
 
     /// The change with which the cost is least, if some change helps.
     ///
-    /// Of equal ones the last in the text is taken, but a `)` is added on the first line where it can be:
+    /// Of equal ones the last in the text is taken, but among other `)` one is added on the first line:
     /// the lists that end there may be those that were left open, and the ones that end below them need not.
     fn best(&mut self, first: &First, now: Cost) -> Option<(Change, usize)> {
         let end = self.pieces.len();
@@ -205,8 +208,11 @@ impl Search<'_> {
             for change in self.changes(place) {
                 let Some(cost) = self.cost(state, change, place, least) else { continue };
                 let earlier = |&(other, at): &(Change, usize)| {
+                    let between = &self.pieces[place..at];
                     let is_close = other == Change::Close && change == Change::Close;
-                    is_close && self.lines[place - 1] < self.lines[at - 1]
+                    is_close
+                        && between.iter().all(|piece| piece.kind == PieceKind::Close)
+                        && self.lines[place - 1] < self.lines[at - 1]
                 };
                 if cost < least || best.as_ref().is_none_or(earlier) {
                     (least, best) = (cost, Some((change, place)));
@@ -222,7 +228,8 @@ impl Search<'_> {
         let before = place.checked_sub(1).map(|before| self.pieces[before].kind);
         let open = (here == Some(PieceKind::Open)).then_some(Change::Drop);
         let close = (here == Some(PieceKind::Close)).then_some(Change::Drop);
-        let inserts = before.is_some_and(|before| before != PieceKind::Open);
+        let inserts = self.ends(Change::Close, place)
+            || before.is_some_and(|before| before != PieceKind::Open);
         let insert = inserts.then_some(Change::Close);
         let starts = match here {
             Some(PieceKind::Word(_)) => before != Some(PieceKind::Open),
@@ -241,6 +248,7 @@ impl Search<'_> {
         let mut state = state.clone();
         let (changed, rest) = self.changed(change, place);
         changed.into_iter().flatten().for_each(|piece| state.step(piece));
+        let closed = self.closed.map(|closed| closed + usize::from(self.ends(change, place)));
         // What stands at the start of a line was put there on purpose.
         let starts = change == Change::Drop && self.pieces[place].indent.is_some();
         state.cost.odd += DELIBERATE * u32::from(starts);
@@ -252,8 +260,13 @@ impl Search<'_> {
             state.step(piece);
         }
         *self.steps = self.steps.saturating_sub(self.pieces.len() - place + COPY);
-        let cost = state.finish();
+        let cost = finish(state, closed);
         (cost <= limit).then_some(cost)
+    }
+
+    /// Whether a change ends a list with the text.
+    fn ends(&self, change: Change, place: usize) -> bool {
+        change == Change::Close && place == self.pieces.len() && self.closed.is_some()
     }
 
     /// What stands at a place after a change, and the piece with which the text goes on.
@@ -262,6 +275,7 @@ impl Search<'_> {
         let token = here.map_or(0, |piece| piece.token);
         let new = |kind, token, indent| Some(Piece { kind, token, indent });
         match change {
+            Change::Close if self.ends(change, place) => ([None; 2], place),
             Change::Close => {
                 let before = place.checked_sub(1).map_or(0, |before| self.pieces[before].token);
                 ([new(PieceKind::Close, before, None), None], place)
@@ -289,7 +303,18 @@ impl Search<'_> {
             Change::Drop => Edit::Drop(self.pieces[place].token),
         };
         let rest = rest.min(self.pieces.len());
+        if self.ends(change, place) {
+            self.closed = self.closed.map(|closed| closed + 1);
+        }
         self.pieces.splice(place..rest, changed.into_iter().flatten());
         edit
+    }
+}
+
+/// The cost at the end of the section, or of the text if so many lists end with it.
+fn finish(state: State, closed: Option<usize>) -> Cost {
+    match closed {
+        Some(closed) => state.cut(closed),
+        None => state.finish(),
     }
 }

@@ -118,12 +118,21 @@ impl State {
         }
     }
 
-    /// The cost if the text ends here.
+    /// The cost if the section ends here.
     pub(super) fn finish(mut self) -> Cost {
         self.cost.impossible += self.stack.len().abs_diff(self.floor) as u32;
         while self.stack.len() > self.floor {
             self.close();
         }
+        self.cost
+    }
+
+    /// The cost if the whole text ends here, and so many lists with it.
+    ///
+    /// It may have been cut off, so no list is blamed for what is not in it.
+    pub(super) fn cut(mut self, closed: usize) -> Cost {
+        let open = self.stack.len().saturating_sub(closed);
+        self.cost.impossible += open.abs_diff(self.floor) as u32;
         self.cost
     }
 
