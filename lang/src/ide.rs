@@ -280,15 +280,18 @@ impl Workspace {
         let Symbol::Known(namespace, number) = symbol else { return None };
         let home = match namespace {
             Namespace::Variable | Namespace::Subtask | Namespace::Problem => id,
-            Namespace::Object if number < self.domain(id).constants.len() as u32 => {
-                self.home(id)?
-            }
-            Namespace::Object if self.is_plan(id) => self.partner(id)?,
-            Namespace::Object => id,
+            Namespace::Object => self.home_of_object(id, number)?,
             Namespace::Preference if self.declares(id, symbol) => id,
             _ => self.home(id)?,
         };
         Some(Target { home, symbol })
+    }
+
+    fn home_of_object(&self, id: SourceId, number: u32) -> Option<SourceId> {
+        if number < self.domain(id).constants.len() as u32 {
+            return self.home(id);
+        }
+        if self.is_plan(id) { self.partner(id) } else { Some(id) }
     }
 
     fn declares(&self, id: SourceId, symbol: Symbol) -> bool {

@@ -86,9 +86,10 @@ fn addition(workspace: &Workspace, id: SourceId, one: &Diagnostic) -> Option<(St
             Some((title, insert(workspace, workspace.home(id)?, ":types", name)?))
         }
         "unknown-object" => {
-            let (keyword, what) = match workspace.is_problem(id) {
-                true => (":objects", "object"),
-                false => (":constants", "constant"),
+            let (keyword, what) = if workspace.is_problem(id) {
+                (":objects", "object")
+            } else {
+                (":constants", "constant")
             };
             let of = place.expected(at);
             let title = match &of {
@@ -96,12 +97,12 @@ fn addition(workspace: &Workspace, id: SourceId, one: &Diagnostic) -> Option<(St
                 None => format!("declare the {what} `{name}`"),
             };
             let sections = outline::sections(&place.tree);
-            let edit = match sections.iter().find(|section| section.is(&[keyword])) {
-                Some(section) => typed(&place.tree, section.node, 1, name, of.as_deref()),
-                None => {
-                    let text = of.map_or(name.to_owned(), |of| format!("{name} - {of}"));
-                    insert(workspace, id, keyword, &text)?
-                }
+            let section = sections.iter().find(|section| section.is(&[keyword]));
+            let edit = if let Some(section) = section {
+                typed(&place.tree, section.node, 1, name, of.as_deref())
+            } else {
+                let text = of.map_or(name.to_owned(), |of| format!("{name} - {of}"));
+                insert(workspace, id, keyword, &text)?
             };
             Some((title, edit))
         }

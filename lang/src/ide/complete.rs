@@ -1,5 +1,7 @@
 //! A cursor in a text goes in, however unfinished the text; what may be written there comes out, what fits best first.
 
+use std::fmt::Write;
+
 use super::context::{Context, Part};
 use super::glossary::{self, Word};
 use super::{Workspace, words};
@@ -54,7 +56,10 @@ const MANY: usize = 400;
 
 /// What may be written at `offset`.
 pub fn complete(workspace: &Workspace, id: SourceId, offset: u32) -> Completions {
-    let Some(context) = Context::new(workspace, id, offset) else { return Completions::default() };
+    let Some(context) = Context::new(workspace, id, offset) else {
+        let word = Span::new(id, offset, offset);
+        return Completions { word, ..Completions::default() };
+    };
     let mut list = Vec::new();
     Completer { context: &context, domain: context.domain(), list: &mut list }.all();
     let typed = context.typed.to_ascii_lowercase();
@@ -100,10 +105,9 @@ impl Completer<'_, '_> {
             Part::Section | Part::Unknown => {}
             _ if depth == 2 && context.typed.starts_with(':') => self.fields(),
             Part::Argument(at) => self.arguments(level, at),
-            Part::Typed => self.typed(),
             Part::Type => self.types(0),
             Part::Head if starts && context.head(1) == ":derived" => self.predicates(false),
-            Part::Head => self.typed(),
+            Part::Head | Part::Typed => self.typed(),
             Part::Function => self.functions(!starts),
             Part::Number => self.numbers(!starts),
             Part::Side => {
@@ -152,9 +156,10 @@ impl Completer<'_, '_> {
         for one in words {
             let more = (one.snippet, one.meaning.to_owned());
             // Words come before signs.
-            let sign =
-                one.word.starts_with(|letter: char| letter.is_ascii_punctuation() && letter != ':');
-            self.push_list(one.word, Item::Keyword, rank + u8::from(sign), outside, more);
+            let sign = one
+                .spelling
+                .starts_with(|letter: char| letter.is_ascii_punctuation() && letter != ':');
+            self.push_list(one.spelling, Item::Keyword, rank + u8::from(sign), outside, more);
         }
     }
 
@@ -218,7 +223,7 @@ impl Completer<'_, '_> {
             }
             ":metric" if context.written(1) == 1 => {
                 for one in glossary::METRIC {
-                    self.push(one.word, Item::Keyword, 0, one.meaning.to_owned());
+                    self.push(one.spelling, Item::Keyword, 0, one.meaning.to_owned());
                 }
             }
             _ => {}
@@ -233,10 +238,10 @@ impl Completer<'_, '_> {
         // After a field its value comes first.
         let rank = if context.before().starts_with(':') { 8 } else { 0 };
         for (sections, one) in &glossary::FIELDS {
-            let there = parts.iter().any(|part| part.eq_ignore_ascii_case(one.word));
+            let there = parts.iter().any(|part| part.eq_ignore_ascii_case(one.spelling));
             if sections.contains(&section.as_str()) && !there && parts.len() > 1 {
                 let more = (one.snippet, one.meaning.to_owned());
-                self.push_list(one.word, Item::Keyword, rank, false, more);
+                self.push_list(one.spelling, Item::Keyword, rank, false, more);
             }
         }
     }
@@ -311,7 +316,7 @@ impl Completer<'_, '_> {
                 self.push("?duration", Item::Variable, 1, "how long the action takes".to_owned());
             }
             ":metric" => {
-                self.push("total-time", Item::Keyword, 2, "how long the plan takes".to_owned())
+                self.push("total-time", Item::Keyword, 2, "how long the plan takes".to_owned());
             }
             _ => {}
         }
@@ -353,7 +358,7 @@ impl Completer<'_, '_> {
         let escaped = |text: &str| text.replace('$', "\\$");
         let mut snippet = escaped(name);
         for (at, parameter) in parameters.iter().enumerate() {
-            snippet.push_str(&format!(" ${{{}:{}}}", at + 1, escaped(&parameter.name.text)));
+            let _ = write!(snippet, " ${{{}:{}}}", at + 1, escaped(&parameter.name.text));
         }
         let detail = words::head(self.domain, name, parameters);
         self.push_list(name, item, rank, outside, (&snippet, detail));

@@ -149,88 +149,66 @@ impl<'w> Context<'w> {
     }
 
     fn in_section(&self, written: usize) -> Part {
-        let timed = self.head(1) == ":durative-action";
         match self.head(1).as_str() {
             "" => Part::Section,
             ":types" | ":constants" | ":objects" => Part::Typed,
             ":predicates" | ":functions" => Part::Head,
             ":init" => Part::Entry,
-            ":goal" => Part::Condition,
             ":constraints" => Part::Constraint,
             ":metric" if written >= 2 => Part::Number,
             ":derived" if written == 1 => Part::Head,
-            ":derived" => Part::Condition,
-            _ => match self.field().as_str() {
-                ":parameters" | ":vars" | ":agent" => Part::Typed,
-                ":precondition" => Part::Condition,
-                ":condition" if timed => Part::TimedCondition,
-                ":condition" => Part::Condition,
-                ":effect" if timed => Part::TimedEffect,
-                ":effect" | ":observe" => Part::Effect,
-                ":constraints" => Part::Condition,
-                ":duration" => Part::Condition,
-                ":task" | ":tasks" | ":subtasks" | ":ordered-tasks" | ":ordered-subtasks" => {
-                    Part::Task
-                }
-                _ => Part::Unknown,
-            },
+            ":goal" | ":derived" => Part::Condition,
+            section => self.in_field(section == ":durative-action"),
         }
     }
 
+    /// The value of a field, if it is not there yet.
+    fn in_field(&self, timed: bool) -> Part {
+        let field = self.field();
+        let valued = self.levels[1].parts.last().is_some_and(|last| !last.starts_with(':'));
+        if valued && field != ":agent" {
+            return Part::Unknown;
+        }
+        match field.as_str() {
+            ":parameters" | ":vars" | ":agent" => Part::Typed,
+            ":condition" if timed => Part::TimedCondition,
+            ":precondition" | ":condition" | ":constraints" | ":duration" => Part::Condition,
+            ":effect" if timed => Part::TimedEffect,
+            ":effect" | ":observe" => Part::Effect,
+            ":task" | ":tasks" | ":subtasks" | ":ordered-tasks" | ":ordered-subtasks" => Part::Task,
+            _ => Part::Unknown,
+        }
+    }
+
+    /// What stands in a list with this word at its head, behind the word.
     fn in_list(&self, head: &str, written: usize, part: Part) -> Part {
         use Part::{Argument, Condition, Constraint, Effect, Entry, Function, Number, Side, Task};
         let first = written == 1;
-        match (part, head) {
-            (Part::Typed | Part::Type, _) => {
-                if head == "either" {
-                    Part::Type
-                } else {
-                    Part::Typed
-                }
-            }
-            (Part::Head, _) => Part::Typed,
-            (Effect | Part::TimedEffect, "when") if first => match part {
-                Effect => Condition,
-                _ => Part::TimedCondition,
-            },
-            (
-                Effect | Part::TimedEffect,
-                "increase" | "decrease" | "assign" | "scale-up" | "scale-down",
-            ) => {
-                if first {
-                    Function
-                } else {
-                    Number
-                }
-            }
-            (
-                Condition | Part::TimedCondition | Constraint | Effect | Part::TimedEffect,
-                "forall" | "exists",
-            ) if first => Part::Typed,
-            (Part::TimedCondition, "at" | "over") => Condition,
-            (Part::TimedEffect, "at") => Effect,
-            (Condition, "=") => Side,
-            (Condition, ">" | "<" | ">=" | "<=") | (Number, "+" | "-" | "*" | "/") => Number,
-            (Entry, "=") => {
-                if first {
-                    Function
-                } else {
-                    Part::Unknown
-                }
-            }
-            (
-                Constraint,
-                "always" | "sometime" | "at-most-once" | "at" | "within" | "sometime-after"
-                | "sometime-before" | "always-within" | "hold-after" | "hold-during",
-            ) => Condition,
-            (Entry, "at") if !self.is_predicate("at") || self.is_number() => Entry,
-            (Task, "and") => Task,
-            (
-                Condition | Part::TimedCondition | Constraint | Effect | Part::TimedEffect | Entry,
-                "and" | "or" | "not" | "imply" | "forall" | "exists" | "when" | "preference"
-                | "oneof",
-            ) => part,
-            (Part::Unknown | Part::Section, _) => Part::Unknown,
+        let one_of = |words: &[&str]| words.contains(&head);
+        let formula = matches!(
+            part,
+            Condition | Part::TimedCondition | Constraint | Effect | Part::TimedEffect | Entry
+        );
+        match part {
+            Part::Typed | Part::Type if head == "either" => Part::Type,
+            Part::Typed | Part::Type | Part::Head => Part::Typed,
+            Part::Unknown | Part::Section => Part::Unknown,
+            Effect if first && head == "when" => Condition,
+            Part::TimedEffect if first && head == "when" => Part::TimedCondition,
+            Effect | Part::TimedEffect if one_of(&CHANGES) && first => Function,
+            Effect | Part::TimedEffect if one_of(&CHANGES) => Number,
+            _ if formula && first && one_of(&["forall", "exists"]) => Part::Typed,
+            Part::TimedCondition if one_of(&["at", "over"]) => Condition,
+            Constraint if one_of(&MODALITIES) => Condition,
+            Part::TimedEffect if head == "at" => Effect,
+            Condition if head == "=" => Side,
+            Condition if one_of(&[">", "<", ">=", "<="]) => Number,
+            Number if one_of(&["+", "-", "*", "/"]) => Number,
+            Entry if head == "=" && first => Function,
+            Entry if head == "=" => Part::Unknown,
+            Entry if head == "at" && (self.is_number() || !self.is_predicate("at")) => Entry,
+            Task if head == "and" => Task,
+            _ if formula && one_of(&JOINTS) => part,
             _ => Argument(written - 1),
         }
     }
@@ -346,6 +324,27 @@ impl<'w> Context<'w> {
     }
 }
 
+/// What changes the value of a function.
+const CHANGES: [&str; 5] = ["increase", "decrease", "assign", "scale-up", "scale-down"];
+
+/// When a condition holds along a plan.
+const MODALITIES: [&str; 10] = [
+    "always",
+    "sometime",
+    "at-most-once",
+    "at",
+    "within",
+    "sometime-after",
+    "sometime-before",
+    "always-within",
+    "hold-after",
+    "hold-during",
+];
+
+/// What joins formulas to formulas of the same kind.
+const JOINTS: [&str; 9] =
+    ["and", "or", "not", "imply", "forall", "exists", "when", "preference", "oneof"];
+
 /// The lists that are open behind `tokens`. Where a section starts, all lists but the definition are at their end, closed or not.
 fn open<'t>(text: &'t str, tokens: impl Iterator<Item = Token>) -> Vec<Level<'t>> {
     let trivia = |token: &Token| matches!(token.kind, TokenKind::Space | TokenKind::Comment);
@@ -381,5 +380,5 @@ fn open<'t>(text: &'t str, tokens: impl Iterator<Item = Token>) -> Vec<Level<'t>
 
 fn is_section(word: &str) -> bool {
     let words = glossary::DOMAIN.iter().chain(&glossary::PROBLEM);
-    word.starts_with(':') && words.into_iter().any(|one| one.word.eq_ignore_ascii_case(word))
+    word.starts_with(':') && words.into_iter().any(|one| one.spelling.eq_ignore_ascii_case(word))
 }

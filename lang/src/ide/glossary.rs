@@ -5,13 +5,13 @@
 /// A word, what it means, and what is written with it behind its parenthesis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Word {
-    pub(super) word: &'static str,
+    pub(super) spelling: &'static str,
     pub(super) meaning: &'static str,
     pub(super) snippet: &'static str,
 }
 
 const fn word(word: &'static str, meaning: &'static str, snippet: &'static str) -> Word {
-    Word { word, meaning, snippet }
+    Word { spelling: word, meaning, snippet }
 }
 
 /// The sections of a domain.
@@ -235,7 +235,7 @@ pub(super) fn meaning(spelling: &str) -> Option<&'static str> {
         [&DOMAIN, &PROBLEM, &CONDITION, &TIMES, &CONSTRAINT, &EFFECT, &INIT, &NUMBER, &METRIC];
     let fields = FIELDS.iter().map(|(_, word)| word);
     let words = tables.into_iter().flatten().chain(fields);
-    let found = words.map(|one| (one.word, one.meaning)).chain(REQUIREMENTS);
+    let found = words.map(|one| (one.spelling, one.meaning)).chain(REQUIREMENTS);
     let mut found = found.filter(|(one, _)| one.eq_ignore_ascii_case(spelling));
     found.next().map(|(_, meaning)| meaning)
 }

@@ -56,12 +56,11 @@ fn in_plan(mut failure: Diagnostic, id: SourceId, end: Span) -> Diagnostic {
     if failure.primary.span.source == id {
         return failure;
     }
-    match failure.secondary.iter().position(|label| label.span.source == id) {
-        Some(step) => std::mem::swap(&mut failure.primary, &mut failure.secondary[step]),
-        None => {
-            let last = Label { span: end, text: "after the last step".to_owned() };
-            failure.secondary.insert(0, std::mem::replace(&mut failure.primary, last));
-        }
+    if let Some(step) = failure.secondary.iter().position(|label| label.span.source == id) {
+        std::mem::swap(&mut failure.primary, &mut failure.secondary[step]);
+    } else {
+        let last = Label { span: end, text: "after the last step".to_owned() };
+        failure.secondary.insert(0, std::mem::replace(&mut failure.primary, last));
     }
     failure
 }

@@ -35,10 +35,8 @@ pub fn outline(workspace: &Workspace, id: SourceId) -> Vec<Entry> {
     let names = workspace.declared(id);
     let children = rest.map(|section| entry(workspace, &tree, section, &names)).collect();
     let named = title.and_then(|title| title.name);
-    let kind = title.map(|title| match title.is(&["domain"]) {
-        true => Namespace::Domain,
-        false => Namespace::Problem,
-    });
+    let kind = title
+        .map(|title| if title.is(&["domain"]) { Namespace::Domain } else { Namespace::Problem });
     let span = tree.span(root);
     vec![Entry {
         name: named.map_or("define", |(name, _)| name).to_owned(),
