@@ -90,8 +90,9 @@ impl Editor {
         input.flush().expect("the server reads");
     }
 
-    fn tell(&mut self, method: &str, parameters: Value) {
-        self.send(&json!({ "jsonrpc": "2.0", "method": method, "params": parameters }));
+    fn tell(&mut self, method: &str, parameters: impl Into<Value>) {
+        let message = json!({ "jsonrpc": "2.0", "method": method, "params": parameters.into() });
+        self.send(&message);
     }
 
     /// The next message of the server.
@@ -113,9 +114,9 @@ impl Editor {
     }
 
     /// The whole answer to a request.
-    fn answer(&mut self, method: &str, parameters: Value) -> Value {
+    fn answer(&mut self, method: &str, parameters: impl Into<Value>) -> Value {
         self.asked += 1;
-        let id = self.asked;
+        let (id, parameters) = (self.asked, parameters.into());
         self.send(&json!({ "jsonrpc": "2.0", "id": id, "method": method, "params": parameters }));
         loop {
             let message = self.read();
@@ -127,7 +128,7 @@ impl Editor {
     }
 
     /// What a request results in.
-    fn ask(&mut self, method: &str, parameters: Value) -> Value {
+    fn ask(&mut self, method: &str, parameters: impl Into<Value>) -> Value {
         let answer = self.answer(method, parameters);
         assert!(answer.get("error").is_none(), "{method}: {answer}");
         answer["result"].clone()

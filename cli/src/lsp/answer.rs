@@ -175,9 +175,10 @@ fn about_text(server: &mut Server, method: &str, params: Value) -> Answer {
             with::<DocumentSymbolRequest>(server, params, |server, asked| {
                 let Some(id) = server.folder.id(&asked.text_document.uri) else { return Ok(None) };
                 let found = ide::outline(&server.folder.workspace, id);
-                Ok(Some(match server.client.nested_symbols {
-                    true => convert::symbols(&server.folder, &found).into(),
-                    false => convert::flat_symbols(&server.folder, &found).into(),
+                Ok(Some(if server.client.nested_symbols {
+                    convert::symbols(&server.folder, &found).into()
+                } else {
+                    convert::flat_symbols(&server.folder, &found).into()
                 }))
             })
         }
@@ -213,8 +214,8 @@ fn about_text(server: &mut Server, method: &str, params: Value) -> Answer {
             let Some(id) = server.folder.id(&asked.text_document.uri) else { return Ok(None) };
             let within = server.folder.span(id, asked.range);
             let arguments = server.client.argument_hints;
-            let found = ide::hints(&server.folder.workspace, within, arguments).into_iter();
-            Ok(Some(found.map(|hint| convert::hint(&server.folder, id, hint)).collect()))
+            let found = ide::hints(&server.folder.workspace, within, arguments);
+            Ok(Some(found.iter().map(|hint| convert::hint(&server.folder, id, hint)).collect()))
         }),
         "textDocument/codeLens" => with::<CodeLensRequest>(server, params, |server, asked| {
             let Some(id) = server.folder.id(&asked.text_document.uri) else { return Ok(None) };

@@ -303,14 +303,15 @@ pub fn selection(folder: &Folder, spans: &[Span]) -> SelectionRange {
 }
 
 /// Something small between the words.
-pub fn hint(folder: &Folder, id: SourceId, hint: Hint) -> InlayHint {
+pub fn hint(folder: &Folder, id: SourceId, hint: &Hint) -> InlayHint {
     let typed = hint.label.starts_with(' ');
     InlayHint {
         position: folder.position(id, hint.offset),
         label: hint.label.trim_start().to_owned().into(),
-        kind: match hint.parameter {
-            true => Some(InlayHintKind::Parameter),
-            false => typed.then_some(InlayHintKind::Type),
+        kind: if hint.parameter {
+            Some(InlayHintKind::Parameter)
+        } else {
+            typed.then_some(InlayHintKind::Type)
         },
         text_edits: None,
         tooltip: None,

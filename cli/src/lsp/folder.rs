@@ -367,9 +367,12 @@ fn named_problem(text: &str) -> Option<&str> {
 /// Whether a file is called as plans are.
 pub fn is_plan(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    let numbered = name.trim_end_matches(|letter: char| letter.is_ascii_digit());
-    let bare = numbered.strip_suffix('.').unwrap_or(numbered);
-    name.starts_with("sas_plan") || bare.ends_with(".plan") || name.ends_with(".plan")
+    // Better and better plans are numbered: `p01.plan.1`.
+    let mut parts = name.rsplit('.');
+    let last = parts.next().filter(|last| *last != name);
+    let numbered = last.is_some_and(|last| last.bytes().all(|byte| byte.is_ascii_digit()));
+    let ending = if numbered { parts.next() } else { last };
+    name.starts_with("sas_plan") || ending == Some("plan")
 }
 
 #[cfg(test)]
