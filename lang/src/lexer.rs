@@ -51,6 +51,17 @@ pub fn lex(text: &str) -> Vec<Token> {
     tokens
 }
 
+/// How many lines end in a text: a carriage return alone ends one too, as it ends a comment.
+pub(crate) fn line_ends(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let ends = |at: usize| match bytes[at] {
+        b'\n' => true,
+        b'\r' => bytes.get(at + 1) != Some(&b'\n'),
+        _ => false,
+    };
+    (0..bytes.len()).filter(|&at| ends(at)).count()
+}
+
 /// Whether `text` is the `-` of a typed list, or one of the dashes that word processors put in its place.
 pub fn is_dash(text: &str) -> bool {
     matches!(

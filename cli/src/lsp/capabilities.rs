@@ -12,8 +12,11 @@ use super::convert;
 use super::position::Encoding;
 
 /// What matters of what a client can do and wants.
-#[expect(clippy::struct_excessive_bools, reason = "each is something that a client can do")]
 #[derive(Debug, Clone, Copy, Default)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is something that the client can do or cannot"
+)]
 pub struct Client {
     /// What columns count.
     pub encoding: Encoding,

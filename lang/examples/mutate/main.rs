@@ -139,7 +139,9 @@ fn files_below(path: &Path, found: &mut Vec<PathBuf>) {
         let mut entries: Vec<PathBuf> =
             entries.map(|entry| entry.expect("an entry can be read").path()).collect();
         entries.sort();
-        entries.iter().for_each(|path| files_below(path, found));
+        for path in &entries {
+            files_below(path, found);
+        }
     } else if path.extension().is_some_and(|end| end == "pddl") {
         found.push(path.to_owned());
     }

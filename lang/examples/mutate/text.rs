@@ -8,6 +8,7 @@ use lang::symbol::{Namespace, Occurrence, Role};
 use lang::tree::{self, NodeId, Tree};
 
 /// A text with everything that is known of it.
+#[expect(clippy::struct_field_names, reason = "it is the text of the text")]
 pub struct Text<'a> {
     pub text: &'a str,
     /// Parentheses and words, without blanks and comments.
@@ -88,19 +89,17 @@ impl<'a> Text<'a> {
     /// The innermost list around a byte.
     pub fn list_at(&self, at: u32) -> Option<NodeId> {
         let nodes = self.tree.nodes();
-        let lists = (0..nodes.len() as u32).map(NodeId).filter(|&id| self.tree.is_list(id));
-        lists
-            .filter(|&id| {
-                let node = self.tree.node(id);
-                node.start < at && at < node.end
-            })
-            .last()
+        let mut lists = (0..nodes.len() as u32).map(NodeId).filter(|&id| self.tree.is_list(id));
+        lists.rfind(|&id| {
+            let node = self.tree.node(id);
+            node.start < at && at < node.end
+        })
     }
 }
 
 /// The line of a byte; the first has number one.
 pub fn line_of(text: &str, at: usize) -> usize {
-    1 + text.as_bytes()[..at.min(text.len())].iter().filter(|&&byte| byte == b'\n').count()
+    1 + text[..at.min(text.len())].matches('\n').count()
 }
 
 /// Numbers that look random and are the same on every run: `SplitMix64`.

@@ -31,6 +31,7 @@ pub fn domain(
     let place = requirement::place(sections().flatten().last().copied(), ast.name);
     let mut report = Report::new(diagnostics, flags, place, occurrences);
     report.declared_here(ast.name, Namespace::Domain);
+    report.undeclared = sections().next().is_none();
     let declares = |section: &_| matches!(section, DomainSection::Predicates(_));
     report.blind = ast.name.text.is_empty() && !ast.sections.iter().any(declares);
     let mut names = Names::default();

@@ -17,6 +17,7 @@ use crate::source::Span;
 use crate::symbol::{Namespace, Symbol};
 
 /// The variables of an action, an axiom or a goal while it is checked.
+#[expect(clippy::struct_excessive_bools, reason = "each is a question of its own about the place")]
 pub(super) struct Bindings<'a> {
     pub(super) scope: Scope,
     visible: Index<'a>,

@@ -236,9 +236,8 @@ impl Frame {
             Kind::Facts | Kind::Loose => (Role::Formula, false),
             Kind::Formulas { most, .. } => (Role::Formula, given >= most),
             Kind::Derived if given == 0 => (Role::Declaration, false),
-            Kind::Derived => (Role::Formula, given > 1),
             Kind::Quantifier if given == 0 => (Role::Variables, false),
-            Kind::Quantifier => (Role::Formula, given > 1),
+            Kind::Derived | Kind::Quantifier => (Role::Formula, given > 1),
             Kind::Operands => (Role::Expression, given > 1),
             Kind::Arithmetic => (Role::Expression, false),
             Kind::Timed => (Role::Formula, last == Last::List),
@@ -316,7 +315,8 @@ impl Frame {
             (Role::Title, _) => (Kind::Title, word != Word::Title),
             (Role::Section, Word::Keyword(kind, _)) => (kind, kind == Kind::Free),
             (Role::Section, _) => (Kind::Free, true),
-            (Role::Declaration | Role::Part, Word::Keyword(..)) => (Kind::Free, false),
+            (Role::Declaration | Role::Part, Word::Keyword(..))
+            | (Role::Top | Role::Words | Role::Free, _) => (Kind::Free, false),
             (Role::Declaration, _) => (Kind::Variables, !name),
             (Role::Part, _) => (Kind::Words, word != Word::Either),
             (Role::Variables, _) => {
@@ -328,7 +328,6 @@ impl Frame {
             }
             (Role::Expression, Word::Dash) => (Kind::Arithmetic, false),
             (Role::Formula | Role::Expression, _) => (Kind::Atom, !name),
-            (Role::Top | Role::Words | Role::Free, _) => (Kind::Free, false),
         };
         self.kind = kind;
         odd
