@@ -252,6 +252,7 @@ impl Workspace {
             }
         } else {
             diagnostics.append(lint::domain(&domain));
+            diagnostics.append(lint::text(&self.sources, id, &domain));
         }
         Analysis { domain: Some(domain), problem: None, occurrences, diagnostics }
     }
@@ -262,6 +263,7 @@ impl Workspace {
         match self.partner(id).map(|home| &self.analysis(home).diagnostics) {
             Some(others) if !others.has_errors() && !diagnostics.has_errors() => {
                 diagnostics.append(lint::problem(domain, &problem));
+                diagnostics.append(lint::text(&self.sources, id, domain));
             }
             Some(_) => {}
             // What the domain would require is not known.

@@ -4,14 +4,15 @@ use std::fmt::Write;
 
 use super::context::{Context, Part};
 use super::glossary::{self, Word};
-use super::{Workspace, words};
-use crate::model::{Domain, Object, TypeId, Variable};
+use super::{Workspace, outline, words};
+use crate::model::{Domain, Object, Requirement, TypeId, Variable};
 use crate::reader::Kind;
 use crate::source::{SourceId, Span};
+use crate::symbol::{Namespace, Occurrence, Role};
 
 /// What kind of thing a [`Completion`] writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[expect(missing_docs, reason = "each says its name")]
+#[expect(missing_docs, reason = "most say their names")]
 pub enum Item {
     Keyword,
     Predicate,
@@ -21,6 +22,8 @@ pub enum Item {
     Object,
     Action,
     Domain,
+    /// A part of a text that has a name, such as a preference.
+    Name,
 }
 
 /// Something that may be written.
@@ -104,7 +107,9 @@ impl Completer<'_, '_> {
             Part::Section | Part::Unknown if depth == 2 => self.in_section(),
             Part::Section | Part::Unknown => {}
             _ if depth == 2 && context.typed.starts_with(':') => self.fields(),
+            Part::Argument(_) if starts => self.functions(false),
             Part::Argument(at) => self.arguments(level, at),
+            Part::Name(namespace) => self.names(namespace),
             Part::Type => self.types(0),
             Part::Head if starts && context.head(1) == ":derived" => self.predicates(false),
             Part::Head | Part::Typed => self.typed(),
@@ -249,7 +254,12 @@ impl Completer<'_, '_> {
     /// In a typed list: types behind a dash, and before it nothing that is known already.
     fn typed(&mut self) {
         let head = self.context.head(1);
-        if self.context.before() == "-" {
+        let before = self.context.before().to_ascii_lowercase();
+        if before == ":agent" || before == ":private" {
+            self.types(2);
+            self.terms(&[]);
+        }
+        if before == "-" {
             if head == ":functions" {
                 self.push("number", Item::Type, 0, "a number".to_owned());
             }
@@ -294,6 +304,10 @@ impl Completer<'_, '_> {
         if !timed && part != Part::Constraint {
             self.predicates(outside);
         }
+        // In MA-PDDL an action may be a condition of another.
+        if part == Part::Condition && self.domain.requirements.contains(&Requirement::MultiAgent) {
+            self.doings(outside);
+        }
     }
 
     fn predicates(&mut self, outside: bool) {
@@ -316,6 +330,7 @@ impl Completer<'_, '_> {
                 self.push("?duration", Item::Variable, 1, "how long the action takes".to_owned());
             }
             ":metric" => {
+                self.words(&[glossary::VIOLATED], 2, outside);
                 self.push("total-time", Item::Keyword, 2, "how long the plan takes".to_owned());
             }
             _ => {}
@@ -323,11 +338,38 @@ impl Completer<'_, '_> {
     }
 
     fn tasks(&mut self, outside: bool) {
+        self.doings(outside);
+        let more = ("and $0", "all of them".to_owned());
+        self.push_list("and", Item::Keyword, 2, outside, more);
+    }
+
+    fn doings(&mut self, outside: bool) {
         for one in &self.domain.signatures {
             self.applied(&one.name.text, &one.parameters, Item::Action, 1, outside);
         }
-        let more = ("and $0", "all of them".to_owned());
-        self.push_list("and", Item::Keyword, 2, outside, more);
+    }
+
+    /// What is declared in the text or its domain and has no table in the model; subtasks only in their own section.
+    fn names(&mut self, namespace: Namespace) {
+        let (workspace, id) = (self.context.workspace, self.context.id);
+        let own = self.context.levels.get(1).map_or(0, |section| section.start);
+        let tree = workspace.tree(id);
+        let sections = outline::sections(&tree);
+        let section = outline::around(&sections, own).map(|section| section.span);
+        let near = |one: &Occurrence| {
+            namespace != Namespace::Subtask
+                || section.is_some_and(|span| (span.start..span.end).contains(&one.span.start))
+        };
+        let texts = [Some(id), workspace.home(id).filter(|&home| home != id)];
+        for text in texts.into_iter().flatten() {
+            for one in &workspace.analysis(text).occurrences.list {
+                let declared = one.role == Role::Declare && one.symbol.namespace() == namespace;
+                if declared && near(one) {
+                    let name = workspace.sources().text(one.span);
+                    self.push(name, Item::Name, 0, namespace.describe().to_owned());
+                }
+            }
+        }
     }
 
     fn in_plan(&mut self) {

@@ -5,6 +5,7 @@ use crate::diagnostic::Diagnostics;
 use crate::lexer::{self, Token, TokenKind};
 use crate::model::{Domain, TypeId, Variable};
 use crate::source::{SourceId, Span};
+use crate::symbol::Namespace;
 use crate::tree::{self, NodeId, Tree};
 
 /// Where the cursor stands.
@@ -62,6 +63,8 @@ pub(super) enum Part {
     Head,
     /// A task or an action in a task network.
     Task,
+    /// The name of something that the text or its domain declares.
+    Name(Namespace),
 }
 
 impl<'w> Context<'w> {
@@ -144,11 +147,16 @@ impl<'w> Context<'w> {
             0 => Part::Section,
             1 => self.in_section(written),
             _ if written == 0 => part,
-            _ => self.in_list(&self.head(level), written, part),
+            _ => self.in_list(level, part),
         }
     }
 
     fn in_section(&self, written: usize) -> Part {
+        // In MA-PDDL what the agent of a goal or a metric is comes before it.
+        let last = self.levels[1].parts.last().copied().unwrap_or("");
+        if last == "-" || last.eq_ignore_ascii_case(":agent") {
+            return Part::Typed;
+        }
         match self.head(1).as_str() {
             "" => Part::Section,
             ":types" | ":constants" | ":objects" => Part::Typed,
@@ -164,15 +172,16 @@ impl<'w> Context<'w> {
 
     /// The value of a field, if it is not there yet.
     fn in_field(&self, timed: bool) -> Part {
-        let field = self.field();
-        let valued = self.levels[1].parts.last().is_some_and(|last| !last.starts_with(':'));
-        if valued && field != ":agent" {
+        if self.levels[1].parts.last().is_some_and(|last| !last.starts_with(':')) {
             return Part::Unknown;
         }
-        match field.as_str() {
-            ":parameters" | ":vars" | ":agent" => Part::Typed,
-            ":condition" if timed => Part::TimedCondition,
-            ":precondition" | ":condition" | ":constraints" | ":duration" => Part::Condition,
+        match self.field().as_str() {
+            ":parameters" | ":vars" => Part::Typed,
+            ":condition" | ":duration" if timed => Part::TimedCondition,
+            ":precondition" | ":condition" | ":constraints" | ":duration" | ":context"
+            | ":implies" => Part::Condition,
+            ":ordering" => Part::Name(Namespace::Subtask),
+            ":actions" => Part::Name(Namespace::Action),
             ":effect" if timed => Part::TimedEffect,
             ":effect" | ":observe" => Part::Effect,
             ":task" | ":tasks" | ":subtasks" | ":ordered-tasks" | ":ordered-subtasks" => Part::Task,
@@ -180,34 +189,41 @@ impl<'w> Context<'w> {
         }
     }
 
-    /// What stands in a list with this word at its head, behind the word.
-    fn in_list(&self, head: &str, written: usize, part: Part) -> Part {
-        use Part::{Argument, Condition, Constraint, Effect, Entry, Function, Number, Side, Task};
+    /// What stands in an open list behind its first word, if the list itself is `part`.
+    fn in_list(&self, level: usize, part: Part) -> Part {
+        use Part::{
+            Argument, Condition, Constraint, Effect, Entry, Function, Name, Number, Side, Task,
+            TimedCondition, TimedEffect, Typed,
+        };
+        let (head, written) = (self.head(level), self.written(level));
         let first = written == 1;
-        let one_of = |words: &[&str]| words.contains(&head);
-        let formula = matches!(
-            part,
-            Condition | Part::TimedCondition | Constraint | Effect | Part::TimedEffect | Entry
-        );
+        let one_of = |words: &[&str]| words.contains(&head.as_str());
+        let is = |word: &str| head == word;
+        let formula =
+            matches!(part, Condition | TimedCondition | Constraint | Effect | TimedEffect | Entry);
         match part {
-            Part::Typed | Part::Type if head == "either" => Part::Type,
-            Part::Typed | Part::Type | Part::Head => Part::Typed,
+            Typed | Part::Type if is("either") => Part::Type,
+            Typed | Part::Type | Part::Head => Typed,
             Part::Unknown | Part::Section => Part::Unknown,
-            Effect if first && head == "when" => Condition,
-            Part::TimedEffect if first && head == "when" => Part::TimedCondition,
-            Effect | Part::TimedEffect if one_of(&CHANGES) && first => Function,
-            Effect | Part::TimedEffect if one_of(&CHANGES) => Number,
-            _ if formula && first && one_of(&["forall", "exists"]) => Part::Typed,
-            Part::TimedCondition if one_of(&["at", "over"]) => Condition,
+            Name(_) => part,
+            Effect if first && is("when") => Condition,
+            TimedEffect if first && is("when") => TimedCondition,
+            Effect | TimedEffect if one_of(&CHANGES) && first => Function,
+            Effect | TimedEffect if is("assign") => Side,
+            Effect | TimedEffect if one_of(&CHANGES) => Number,
+            _ if formula && first && one_of(&["forall", "exists"]) => Typed,
+            TimedCondition if one_of(&["at", "over"]) => Condition,
             Constraint if one_of(&MODALITIES) => Condition,
-            Part::TimedEffect if head == "at" => Effect,
-            Condition if head == "=" => Side,
-            Condition if one_of(&[">", "<", ">=", "<="]) => Number,
-            Number if one_of(&["+", "-", "*", "/"]) => Number,
-            Entry if head == "=" && first => Function,
-            Entry if head == "=" => Part::Unknown,
-            Entry if head == "at" && (self.is_number() || !self.is_predicate("at")) => Entry,
-            Task if head == "and" => Task,
+            TimedEffect if is("at") => Effect,
+            Condition | TimedCondition if is("=") => Side,
+            Condition | TimedCondition if one_of(&[">", "<", ">=", "<="]) => Number,
+            Number | Side if one_of(&["+", "-", "*", "/"]) => Number,
+            Number if is("is-violated") => Name(Namespace::Preference),
+            Entry if is("=") && first => Function,
+            Entry if is("=") => Side,
+            Entry if is("at") && (self.is_timed(level) || !self.is_predicate("at")) => Entry,
+            // Subtasks may have names: `(first (move ?c))`.
+            Task if is("and") || !self.is_signature(&head) => Task,
             _ if formula && one_of(&JOINTS) => part,
             _ => Argument(written - 1),
         }
@@ -217,9 +233,13 @@ impl<'w> Context<'w> {
         self.domain().predicates.iter().any(|one| one.name.text.eq_ignore_ascii_case(name))
     }
 
-    /// Whether the first argument of the innermost list is a number.
-    fn is_number(&self) -> bool {
-        let second = self.levels.last().and_then(|level| level.parts.get(1));
+    fn is_signature(&self, name: &str) -> bool {
+        self.domain().signatures.iter().any(|one| one.name.text.eq_ignore_ascii_case(name))
+    }
+
+    /// Whether the first argument of an open list is a number.
+    fn is_timed(&self, level: usize) -> bool {
+        let second = self.levels[level].parts.get(1);
         second.is_some_and(|second| second.starts_with(|one: char| one.is_ascii_digit()))
     }
 
@@ -242,7 +262,7 @@ impl<'w> Context<'w> {
         };
         match part {
             Part::Task => signature(),
-            Part::Number | Part::Function => function(),
+            Part::Number | Part::Function | Part::Argument(_) => function(),
             Part::Side => function().or_else(predicate),
             Part::Condition
             | Part::TimedCondition
@@ -284,7 +304,11 @@ impl<'w> Context<'w> {
             {
                 let of: Vec<TypeId> =
                     parts.nth(1).and_then(|of| self.type_of(whole.slice(of))).into_iter().collect();
-                found.push((whole.slice(agent).to_owned(), of));
+                if whole.is_list(agent) {
+                    self.typed_list(&whole, agent, &mut found);
+                } else {
+                    found.push((whole.slice(agent).to_owned(), of));
+                }
             }
         }
         found.retain(|(name, _)| name.len() > 1 && name.starts_with('?'));

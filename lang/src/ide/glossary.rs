@@ -191,6 +191,10 @@ pub(super) const NUMBER: [Word; 4] = [
     word("/", "the quotient", "/ $1 $0"),
 ];
 
+/// What a metric may count beside the values of functions.
+pub(super) const VIOLATED: Word =
+    word("is-violated", "how often a preference is violated", "is-violated $0");
+
 /// What may be asked for in a metric.
 pub(super) const METRIC: [Word; 2] = [
     word("minimize", "as little as possible", "minimize ($0)"),
