@@ -160,7 +160,8 @@ impl Server {
             "initialized" => self.watch(),
             "textDocument/didOpen" => {
                 if let Some(DidOpenTextDocumentParams { text_document: one }) = read(params) {
-                    self.folder.open(one.uri, one.version, one.text);
+                    let plan = json!(one.language_id) == json!("plan");
+                    self.folder.open(one.uri, one.version, one.text, plan);
                 }
             }
             "textDocument/didChange" => {
