@@ -65,6 +65,13 @@ pub fn complete(workspace: &Workspace, id: SourceId, offset: u32) -> Completions
     };
     let mut list = Vec::new();
     Completer { context: &context, domain: context.domain(), list: &mut list }.all();
+    // Where arguments are there already, only the name changes.
+    let heads = context.levels.last().is_some_and(|level| level.parts.is_empty());
+    if heads && context.followed {
+        for one in &mut list {
+            one.snippet = None;
+        }
+    }
     let typed = context.typed.to_ascii_lowercase();
     let mut more = false;
     if list.len() > MANY {
@@ -510,6 +517,18 @@ mod tests {
         assert_eq!(at.text, "(at)");
         assert_eq!(at.snippet.as_deref(), Some("(at ${1:?d} ${2:?p})"));
         assert_eq!(at.detail, "(at ?d - dish ?p - place)");
+    }
+
+    #[test]
+    fn arguments_that_are_there_stay() {
+        let snippet = |text: &str| {
+            let (workspace, id, offset) = workspace(&[text]);
+            let found = complete(&workspace, id, offset).list;
+            found.into_iter().find(|one| one.label == "at").and_then(|one| one.snippet)
+        };
+        assert_eq!(snippet(&DOMAIN.replace("(at ?d sink)", "(a$0 ?d sink)")), None);
+        let whole = Some("at ${1:?d} ${2:?p}".to_owned());
+        assert_eq!(snippet(&DOMAIN.replace("(at ?d sink)", "(a$0)")), whole);
     }
 
     #[test]

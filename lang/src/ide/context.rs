@@ -18,6 +18,8 @@ pub(super) struct Context<'w> {
     pub(super) word: Span,
     /// The part of it before the cursor.
     pub(super) typed: &'w str,
+    /// Whether more stands behind it in its line and list.
+    pub(super) followed: bool,
 }
 
 /// A list that is open.
@@ -86,7 +88,10 @@ impl<'w> Context<'w> {
         let finished = tokens.iter().take_while(|token| token.end <= start);
         let levels = open(text, finished.copied());
         let typed = &text[start as usize..at];
-        Some(Self { workspace, id, levels, word: Span::new(id, start, end), typed })
+        let behind = text[end as usize..].trim_start_matches([' ', '\t']).chars().next();
+        let followed = behind.is_some_and(|next| !matches!(next, ')' | ';' | '\r' | '\n'));
+        let word = Span::new(id, start, end);
+        Some(Self { workspace, id, levels, word, typed, followed })
     }
 
     pub(super) fn domain(&self) -> &'w Domain {
