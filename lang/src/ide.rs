@@ -252,6 +252,7 @@ impl Workspace {
             }
         } else {
             diagnostics.append(lint::domain(&domain));
+            diagnostics.append(lint::text(&self.sources, id, &domain));
         }
         Analysis { domain: Some(domain), problem: None, occurrences, diagnostics }
     }
@@ -262,6 +263,7 @@ impl Workspace {
         match self.partner(id).map(|home| &self.analysis(home).diagnostics) {
             Some(others) if !others.has_errors() && !diagnostics.has_errors() => {
                 diagnostics.append(lint::problem(domain, &problem));
+                diagnostics.append(lint::text(&self.sources, id, domain));
             }
             Some(_) => {}
             // What the domain would require is not known.
@@ -279,15 +281,19 @@ impl Workspace {
     pub fn target(&self, id: SourceId, symbol: Symbol) -> Option<Target> {
         let Symbol::Known(namespace, number) = symbol else { return None };
         let home = match namespace {
-            Namespace::Object if number < self.domain(id).constants.len() as u32 => {
-                self.home(id)?
-            }
-            Namespace::Object if self.is_plan(id) => self.partner(id)?,
-            Namespace::Variable | Namespace::Subtask | Namespace::Problem | Namespace::Object => id,
+            Namespace::Variable | Namespace::Subtask | Namespace::Problem => id,
+            Namespace::Object => self.home_of_object(id, number)?,
             Namespace::Preference if self.declares(id, symbol) => id,
             _ => self.home(id)?,
         };
         Some(Target { home, symbol })
+    }
+
+    fn home_of_object(&self, id: SourceId, number: u32) -> Option<SourceId> {
+        if number < self.domain(id).constants.len() as u32 {
+            return self.home(id);
+        }
+        if self.is_plan(id) { self.partner(id) } else { Some(id) }
     }
 
     fn declares(&self, id: SourceId, symbol: Symbol) -> bool {

@@ -214,8 +214,8 @@ fn about_text(server: &mut Server, method: &str, params: Value) -> Answer {
             let Some(id) = server.folder.id(&asked.text_document.uri) else { return Ok(None) };
             let within = server.folder.span(id, asked.range);
             let arguments = server.client.argument_hints;
-            let found = ide::hints(&server.folder.workspace, within, arguments).into_iter();
-            Ok(Some(found.map(|hint| convert::hint(&server.folder, id, &hint)).collect()))
+            let found = ide::hints(&server.folder.workspace, within, arguments);
+            Ok(Some(found.iter().map(|hint| convert::hint(&server.folder, id, hint)).collect()))
         }),
         "textDocument/codeLens" => with::<CodeLensRequest>(server, params, |server, asked| {
             let Some(id) = server.folder.id(&asked.text_document.uri) else { return Ok(None) };

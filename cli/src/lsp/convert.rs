@@ -177,7 +177,7 @@ pub fn completions(folder: &Folder, found: Completions, snippets: bool) -> Compl
             Item::Variable => CompletionItemKind::Variable,
             Item::Object => CompletionItemKind::EnumMember,
             Item::Action => CompletionItemKind::Method,
-            Item::Domain => CompletionItemKind::Module,
+            Item::Domain | Item::Name => CompletionItemKind::Module,
         };
         let snippet = one.snippet.filter(|_| snippets);
         let format = snippet.is_some().then_some(InsertTextFormat::Snippet);

@@ -47,16 +47,26 @@ type Stamp = (SystemTime, u64);
 const MANY: usize = 1000;
 
 impl Folder {
-    /// An editor opens a document.
-    pub fn open(&mut self, uri: Uri, version: i32, text: String) -> SourceId {
+    /// An editor opens a document; `plan` says that it takes it for a plan, whatever it is called.
+    pub fn open(&mut self, uri: Uri, version: i32, text: String, plan: bool) -> SourceId {
         let path = address::path(&uri);
-        let id = self.put(&path, text, None);
+        let id = self.put(&path, text, None, plan);
         if let Some(document) = self.documents.get_mut(&id) {
             document.open = Some((uri, version));
         }
         self.load_around(&path);
         self.pair();
+        if self.is_alone(id) {
+            self.load_roots();
+        }
         id
+    }
+
+    /// Whether a text is a problem whose domain has not been found.
+    fn is_alone(&self, id: SourceId) -> bool {
+        let Some(Kind::Problem { domain, .. }) = self.workspace.kind(id) else { return false };
+        let partner = self.workspace.partner(id).and_then(|partner| self.workspace.kind(partner));
+        !is_domain(partner, domain.as_deref())
     }
 
     /// An editor changes a part of a document, or all of it.
@@ -90,7 +100,9 @@ impl Folder {
     /// Looks again at files that may have changed.
     pub fn refresh(&mut self, paths: &[PathBuf]) {
         for path in paths {
-            self.load(path);
+            if files::is_pddl(path) || is_plan(path) || self.ids.contains_key(path) {
+                self.load(path);
+            }
         }
         self.pair();
     }
@@ -239,19 +251,19 @@ impl Folder {
         }
         match stamp.and_then(|_| files::read(path).ok()) {
             Some(text) => {
-                self.put(path, text.text, stamp);
+                self.put(path, text.text, stamp, false);
                 true
             }
             // A file that is gone says nothing any more.
             None if known.is_some() => {
-                self.put(path, String::new(), None);
+                self.put(path, String::new(), None, false);
                 true
             }
             None => false,
         }
     }
 
-    fn put(&mut self, path: &Path, text: String, stamp: Option<Stamp>) -> SourceId {
+    fn put(&mut self, path: &Path, text: String, stamp: Option<Stamp>, plan: bool) -> SourceId {
         let id = match self.ids.get(path) {
             Some(&id) => {
                 if self.workspace.text(id) != text {
@@ -259,7 +271,7 @@ impl Folder {
                 }
                 id
             }
-            None => self.workspace.add(path.display().to_string(), text, is_plan(path)),
+            None => self.workspace.add(path.display().to_string(), text, plan || is_plan(path)),
         };
         self.ids.insert(path.to_path_buf(), id);
         let path = path.to_path_buf();
@@ -367,16 +379,131 @@ fn named_problem(text: &str) -> Option<&str> {
 /// Whether a file is called as plans are.
 pub fn is_plan(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    let numbered = name.trim_end_matches(|letter: char| letter.is_ascii_digit());
-    let bare = numbered.strip_suffix('.').unwrap_or(numbered);
-    let ends = |name: &str| Path::new(name).extension().is_some_and(|ending| ending == "plan");
-    name.starts_with("sas_plan") || ends(bare) || ends(&name)
+    // Better and better plans are numbered: `p01.plan.1`.
+    let mut parts = name.rsplit('.');
+    let last = parts.next().filter(|last| *last != name);
+    let numbered = last.is_some_and(|last| last.bytes().all(|byte| byte.is_ascii_digit()));
+    let ending = if numbered { parts.next() } else { last };
+    name.starts_with("sas_plan") || ending == Some("plan")
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{is_plan, named_problem};
+    use super::{Folder, is_plan, named_problem};
+    use crate::lsp::address;
+    use lang::source::SourceId;
+    use std::fs;
     use std::path::Path;
+    use tempfile::TempDir;
+
+    /// A folder with these files.
+    fn files(files: &[(&str, &str)]) -> TempDir {
+        let folder = tempfile::tempdir().expect("a temporary folder can be made");
+        for (name, text) in files {
+            let path = folder.path().join(name);
+            fs::create_dir_all(path.parent().expect("it has one")).expect("it can be made");
+            fs::write(path, text).expect("the folder can be written to");
+        }
+        folder
+    }
+
+    fn open(folder: &mut Folder, root: &TempDir, name: &str) -> SourceId {
+        let path = root.path().join(name);
+        let text = fs::read_to_string(&path).expect("it is there");
+        folder.open(address::uri(&path), 1, text, false)
+    }
+
+    /// The name of the file that a file belongs to.
+    fn partner(files_and_texts: &[(&str, &str)], name: &str) -> Option<String> {
+        let root = files(files_and_texts);
+        let mut folder = Folder { roots: vec![root.path().to_path_buf()], ..Folder::default() };
+        let id = open(&mut folder, &root, name);
+        let partner = folder.workspace.partner(id)?;
+        let path = Path::new(&folder.workspace.sources().get(partner).name).to_path_buf();
+        let shown = path.strip_prefix(root.path()).expect("it lies in the folder");
+        Some(shown.display().to_string())
+    }
+
+    const D: &str = "(define (domain d) (:predicates (p)) (:action a :effect (p)))";
+    const OTHER: &str = "(define (domain other))";
+    const P: &str = "(define (problem x) (:domain d) (:objects o) (:init) (:goal (p)))";
+    const Q: &str = "(define (problem y) (:domain d) (:objects u) (:init) (:goal (p)))";
+
+    #[test]
+    fn a_domain_beside_its_problem_above_it_or_anywhere() {
+        let p = ("deep/er/p.pddl", P);
+        assert_eq!(partner(&[p], p.0), None);
+        assert_eq!(
+            partner(&[p, ("deep/er/domain.pddl", OTHER)], p.0).as_deref(),
+            Some("deep/er/domain.pddl")
+        );
+        assert_eq!(
+            partner(&[p, ("deep/er/domain.pddl", OTHER), ("deep/d.pddl", D)], p.0).as_deref(),
+            Some("deep/d.pddl")
+        );
+        assert_eq!(
+            partner(&[p, ("deep/er/some.pddl", D), ("deep/domain.pddl", D)], p.0).as_deref(),
+            Some("deep/er/some.pddl")
+        );
+        assert_eq!(partner(&[p, ("else/d.pddl", D)], p.0).as_deref(), Some("else/d.pddl"));
+        assert_eq!(
+            partner(&[p, ("deep/er/a.pddl", D), ("deep/er/p-domain.pddl", D)], p.0).as_deref(),
+            Some("deep/er/p-domain.pddl")
+        );
+    }
+
+    #[test]
+    fn a_plan_belongs_to_the_problem_of_its_name_or_of_its_objects() {
+        let task = [("domain.pddl", D), ("p01.pddl", P), ("p02.pddl", Q)];
+        let with = |name: &str, text: &str| {
+            let mut all = task.to_vec();
+            all.push((name, text));
+            partner(&all, name)
+        };
+        assert_eq!(with("p02.plan", "(a)").as_deref(), Some("p02.pddl"));
+        assert_eq!(with("p02.plan.3", "(a)").as_deref(), Some("p02.pddl"));
+        assert_eq!(with("sas_plan", "(a u)").as_deref(), Some("p02.pddl"));
+        assert_eq!(with("sas_plan", "(a o)").as_deref(), Some("p01.pddl"));
+        assert_eq!(with("some.plan", ";;!problem: y\n(a)").as_deref(), Some("p02.pddl"));
+        assert_eq!(partner(&[("sas_plan", "(a)")], "sas_plan"), None);
+    }
+
+    #[test]
+    fn files_that_change_or_go_are_seen() {
+        let root = files(&[("domain.pddl", D), ("p.pddl", P)]);
+        let mut folder = Folder::default();
+        let problem = open(&mut folder, &root, "p.pddl");
+        let errors = |folder: &Folder| folder.workspace.analysis(problem).diagnostics.has_errors();
+        assert!(!errors(&folder));
+        fs::write(root.path().join("domain.pddl"), D.replace("(p)", "(longer)")).expect("it can");
+        folder.refresh_partners();
+        assert!(errors(&folder));
+        fs::remove_file(root.path().join("domain.pddl")).expect("it can be removed");
+        folder.refresh_partners();
+        assert_eq!(folder.workspace.partner(problem), None);
+    }
+
+    #[test]
+    fn what_is_open_counts_until_it_is_closed() {
+        let root = files(&[("domain.pddl", D), ("p.pddl", P)]);
+        let mut folder = Folder::default();
+        let problem = open(&mut folder, &root, "p.pddl");
+        let domain = open(&mut folder, &root, "domain.pddl");
+        folder.change(domain, 2, None, OTHER.to_owned());
+        let said = |folder: &Folder| folder.workspace.analysis(problem).diagnostics.list.len();
+        assert_ne!(said(&folder), 0);
+        folder.close(domain);
+        assert_eq!(said(&folder), 0);
+    }
+
+    #[test]
+    fn a_text_that_is_not_saved_finds_an_open_domain() {
+        let mut folder = Folder::default();
+        let domain = folder.open("untitled:1".into(), 1, D.to_owned(), false);
+        let problem = folder.open("untitled:2".into(), 1, P.to_owned(), false);
+        assert_eq!(folder.workspace.partner(problem), Some(domain));
+        assert_eq!(folder.uri(problem).0, "untitled:2");
+    }
 
     #[test]
     fn plans_are_known_by_their_names() {

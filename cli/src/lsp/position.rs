@@ -41,16 +41,6 @@ impl Encoding {
     }
 }
 
-/// A character of several bytes, which are fewer units.
-#[derive(Debug, Clone, Copy)]
-struct Wide {
-    /// Its first byte, and the byte after its last.
-    start: u32,
-    end: u32,
-    /// How many more bytes than units there are up to its end.
-    more: u32,
-}
-
 /// Where the lines of a text begin, and what its wide characters do to columns.
 #[derive(Debug, Clone, Default)]
 pub struct Lines {
@@ -58,8 +48,19 @@ pub struct Lines {
     starts: Vec<u32>,
     /// The byte after each line, without its line end.
     ends: Vec<u32>,
-    /// The characters that are not ASCII.
+    /// The characters that are not ASCII, where units are not bytes.
     wide: Vec<Wide>,
+}
+
+/// A character of several bytes.
+#[derive(Debug, Clone, Copy)]
+struct Wide {
+    /// Its first byte.
+    start: u32,
+    /// The byte after it.
+    end: u32,
+    /// How many more bytes than units there are up to its end.
+    more: u32,
 }
 
 impl Lines {
@@ -101,11 +102,7 @@ impl Lines {
     fn byte(&self, units: u32) -> u32 {
         let before = self.wide.partition_point(|wide| wide.end - wide.more <= units);
         let offset = units + before.checked_sub(1).map_or(0, |last| self.wide[last].more);
-        // Up to here nothing is cut but in the character that comes next.
-        match self.wide.get(before) {
-            Some(wide) => offset.min(wide.start),
-            None => offset,
-        }
+        self.wide.get(before).map_or(offset, |next| offset.min(next.start))
     }
 
     /// The line and the column of a byte.

@@ -32,8 +32,8 @@ pub struct Server {
     pub folder: Folder,
     /// Whom it serves.
     pub client: Client,
-    /// What was said last of each document.
-    said: BTreeMap<SourceId, Vec<Diagnostic>>,
+    /// What was said last of each document, and of which version.
+    said: BTreeMap<SourceId, (Option<i32>, Vec<Diagnostic>)>,
     /// Whether something has changed since.
     stale: bool,
 }
@@ -160,7 +160,10 @@ impl Server {
             "initialized" => self.watch(),
             "textDocument/didOpen" => {
                 if let Some(DidOpenTextDocumentParams { text_document: one }) = read(params) {
-                    self.folder.open(one.uri, one.version, one.text);
+                    let plan = json!(one.language_id) == json!("plan");
+                    let id = self.folder.open(one.uri, one.version, one.text, plan);
+                    // Whoever opens a document wants to be told, even if it is what was told before.
+                    self.said.remove(&id);
                 }
             }
             "textDocument/didChange" => {
@@ -263,15 +266,13 @@ impl Server {
     fn publish(&mut self, found: BTreeMap<SourceId, Vec<Diagnostic>>) {
         let mut before = std::mem::take(&mut self.said);
         for (id, diagnostics) in found {
-            let uri = self.folder.uri(id);
-            let version = self.folder.version(id);
-            // An open document is told of every version that was looked at.
-            if before.remove(&id).as_ref() != Some(&diagnostics) || version.is_some() {
-                self.tell(&uri, version, diagnostics.clone());
+            let now = (self.folder.version(id), diagnostics);
+            if before.remove(&id).as_ref() != Some(&now) {
+                self.tell(&self.folder.uri(id), now.0, now.1.clone());
             }
-            self.said.insert(id, diagnostics);
+            self.said.insert(id, now);
         }
-        for (id, diagnostics) in before {
+        for (id, (_, diagnostics)) in before {
             if !diagnostics.is_empty() {
                 self.tell(&self.folder.uri(id), None, Vec::new());
             }

@@ -97,8 +97,8 @@ fn addition(workspace: &Workspace, id: SourceId, one: &Diagnostic) -> Option<(St
                 None => format!("declare the {what} `{name}`"),
             };
             let sections = outline::sections(&place.tree);
-            let edit = if let Some(section) = sections.iter().find(|section| section.is(&[keyword]))
-            {
+            let section = sections.iter().find(|section| section.is(&[keyword]));
+            let edit = if let Some(section) = section {
                 typed(&place.tree, section.node, 1, name, of.as_deref())
             } else {
                 let text = of.map_or(name.to_owned(), |of| format!("{name} - {of}"));

@@ -33,25 +33,27 @@ pub struct Call {
 
 /// What the word at `offset` stands for.
 pub fn caller(workspace: &Workspace, id: SourceId, offset: u32) -> Option<Caller> {
-    if let Some(at) = workspace.at(id, offset) {
-        match at.symbol.namespace() {
-            Namespace::Predicate | Namespace::Function => fluent(workspace, id, at.symbol),
-            Namespace::Action => {
-                let target = workspace.target(id, at.symbol)?;
-                let declared = workspace.declarations(target).into_iter().next()?;
-                let tree = workspace.tree(declared.source);
-                let sections = sections(&tree);
-                around(&sections, declared.start).map(|section| doing(&tree, section))
-            }
-            _ => None,
+    let Some(at) = workspace.at(id, offset) else { return rule(workspace, id, offset) };
+    match at.symbol.namespace() {
+        Namespace::Predicate | Namespace::Function => fluent(workspace, id, at.symbol),
+        Namespace::Action => {
+            let target = workspace.target(id, at.symbol)?;
+            let declared = workspace.declarations(target).into_iter().next()?;
+            let tree = workspace.tree(declared.source);
+            let sections = sections(&tree);
+            around(&sections, declared.start).map(|section| doing(&tree, section))
         }
-    } else {
-        let tree = workspace.tree(id);
-        let sections = sections(&tree);
-        let section = around(&sections, offset).filter(|section| section.is(&[":derived"]))?;
-        let rule = doing(&tree, section);
-        (rule.place.start <= offset && offset <= rule.place.end).then_some(rule)
+        _ => None,
     }
+}
+
+/// The rule whose keyword stands at `offset`.
+fn rule(workspace: &Workspace, id: SourceId, offset: u32) -> Option<Caller> {
+    let tree = workspace.tree(id);
+    let sections = sections(&tree);
+    let section = around(&sections, offset).filter(|section| section.is(&[":derived"]))?;
+    let rule = doing(&tree, section);
+    (rule.place.start <= offset && offset <= rule.place.end).then_some(rule)
 }
 
 /// A predicate or a function where it is declared.

@@ -4,14 +4,15 @@ use std::fmt::Write;
 
 use super::context::{Context, Part};
 use super::glossary::{self, Word};
-use super::{Workspace, words};
-use crate::model::{Domain, Object, TypeId, Variable};
+use super::{Workspace, outline, words};
+use crate::model::{Domain, Object, Requirement, TypeId, Variable};
 use crate::reader::Kind;
 use crate::source::{SourceId, Span};
+use crate::symbol::{Namespace, Occurrence, Role};
 
 /// What kind of thing a [`Completion`] writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[expect(missing_docs, reason = "each says its name")]
+#[expect(missing_docs, reason = "most say their names")]
 pub enum Item {
     Keyword,
     Predicate,
@@ -21,6 +22,8 @@ pub enum Item {
     Object,
     Action,
     Domain,
+    /// A part of a text that has a name, such as a preference.
+    Name,
 }
 
 /// Something that may be written.
@@ -56,9 +59,19 @@ const MANY: usize = 400;
 
 /// What may be written at `offset`.
 pub fn complete(workspace: &Workspace, id: SourceId, offset: u32) -> Completions {
-    let Some(context) = Context::new(workspace, id, offset) else { return Completions::default() };
+    let Some(context) = Context::new(workspace, id, offset) else {
+        let word = Span::new(id, offset, offset);
+        return Completions { word, ..Completions::default() };
+    };
     let mut list = Vec::new();
     Completer { context: &context, domain: context.domain(), list: &mut list }.all();
+    // Where arguments are there already, only the name changes.
+    let heads = context.levels.last().is_some_and(|level| level.parts.is_empty());
+    if heads && context.followed {
+        for one in &mut list {
+            one.snippet = None;
+        }
+    }
     let typed = context.typed.to_ascii_lowercase();
     let mut more = false;
     if list.len() > MANY {
@@ -101,10 +114,12 @@ impl Completer<'_, '_> {
             Part::Section | Part::Unknown if depth == 2 => self.in_section(),
             Part::Section | Part::Unknown => {}
             _ if depth == 2 && context.typed.starts_with(':') => self.fields(),
+            Part::Argument(_) if starts => self.functions(false),
             Part::Argument(at) => self.arguments(level, at),
+            Part::Name(namespace) => self.names(namespace),
             Part::Type => self.types(0),
             Part::Head if starts && context.head(1) == ":derived" => self.predicates(false),
-            Part::Typed | Part::Head => self.typed(),
+            Part::Head | Part::Typed => self.typed(),
             Part::Function => self.functions(!starts),
             Part::Number => self.numbers(!starts),
             Part::Side => {
@@ -153,9 +168,10 @@ impl Completer<'_, '_> {
         for one in words {
             let more = (one.snippet, one.meaning.to_owned());
             // Words come before signs.
-            let sign =
-                one.text.starts_with(|letter: char| letter.is_ascii_punctuation() && letter != ':');
-            self.push_list(one.text, Item::Keyword, rank + u8::from(sign), outside, more);
+            let sign = one
+                .spelling
+                .starts_with(|letter: char| letter.is_ascii_punctuation() && letter != ':');
+            self.push_list(one.spelling, Item::Keyword, rank + u8::from(sign), outside, more);
         }
     }
 
@@ -219,7 +235,7 @@ impl Completer<'_, '_> {
             }
             ":metric" if context.written(1) == 1 => {
                 for one in glossary::METRIC {
-                    self.push(one.text, Item::Keyword, 0, one.meaning.to_owned());
+                    self.push(one.spelling, Item::Keyword, 0, one.meaning.to_owned());
                 }
             }
             _ => {}
@@ -234,10 +250,10 @@ impl Completer<'_, '_> {
         // After a field its value comes first.
         let rank = if context.before().starts_with(':') { 8 } else { 0 };
         for (sections, one) in &glossary::FIELDS {
-            let there = parts.iter().any(|part| part.eq_ignore_ascii_case(one.text));
+            let there = parts.iter().any(|part| part.eq_ignore_ascii_case(one.spelling));
             if sections.contains(&section.as_str()) && !there && parts.len() > 1 {
                 let more = (one.snippet, one.meaning.to_owned());
-                self.push_list(one.text, Item::Keyword, rank, false, more);
+                self.push_list(one.spelling, Item::Keyword, rank, false, more);
             }
         }
     }
@@ -245,7 +261,12 @@ impl Completer<'_, '_> {
     /// In a typed list: types behind a dash, and before it nothing that is known already.
     fn typed(&mut self) {
         let head = self.context.head(1);
-        if self.context.before() == "-" {
+        let before = self.context.before().to_ascii_lowercase();
+        if before == ":agent" || before == ":private" {
+            self.types(2);
+            self.terms(&[]);
+        }
+        if before == "-" {
             if head == ":functions" {
                 self.push("number", Item::Type, 0, "a number".to_owned());
             }
@@ -290,6 +311,10 @@ impl Completer<'_, '_> {
         if !timed && part != Part::Constraint {
             self.predicates(outside);
         }
+        // In MA-PDDL an action may be a condition of another.
+        if part == Part::Condition && self.domain.requirements.contains(&Requirement::MultiAgent) {
+            self.doings(outside);
+        }
     }
 
     fn predicates(&mut self, outside: bool) {
@@ -312,6 +337,7 @@ impl Completer<'_, '_> {
                 self.push("?duration", Item::Variable, 1, "how long the action takes".to_owned());
             }
             ":metric" => {
+                self.words(&[glossary::VIOLATED], 2, outside);
                 self.push("total-time", Item::Keyword, 2, "how long the plan takes".to_owned());
             }
             _ => {}
@@ -319,11 +345,38 @@ impl Completer<'_, '_> {
     }
 
     fn tasks(&mut self, outside: bool) {
+        self.doings(outside);
+        let more = ("and $0", "all of them".to_owned());
+        self.push_list("and", Item::Keyword, 2, outside, more);
+    }
+
+    fn doings(&mut self, outside: bool) {
         for one in &self.domain.signatures {
             self.applied(&one.name.text, &one.parameters, Item::Action, 1, outside);
         }
-        let more = ("and $0", "all of them".to_owned());
-        self.push_list("and", Item::Keyword, 2, outside, more);
+    }
+
+    /// What is declared in the text or its domain and has no table in the model; subtasks only in their own section.
+    fn names(&mut self, namespace: Namespace) {
+        let (workspace, id) = (self.context.workspace, self.context.id);
+        let own = self.context.levels.get(1).map_or(0, |section| section.start);
+        let tree = workspace.tree(id);
+        let sections = outline::sections(&tree);
+        let section = outline::around(&sections, own).map(|section| section.span);
+        let near = |one: &Occurrence| {
+            namespace != Namespace::Subtask
+                || section.is_some_and(|span| (span.start..span.end).contains(&one.span.start))
+        };
+        let texts = [Some(id), workspace.home(id).filter(|&home| home != id)];
+        for text in texts.into_iter().flatten() {
+            for one in &workspace.analysis(text).occurrences.list {
+                let declared = one.role == Role::Declare && one.symbol.namespace() == namespace;
+                if declared && near(one) {
+                    let name = workspace.sources().text(one.span);
+                    self.push(name, Item::Name, 0, namespace.describe().to_owned());
+                }
+            }
+        }
     }
 
     fn in_plan(&mut self) {
@@ -354,8 +407,7 @@ impl Completer<'_, '_> {
         let escaped = |text: &str| text.replace('$', "\\$");
         let mut snippet = escaped(name);
         for (at, parameter) in parameters.iter().enumerate() {
-            write!(snippet, " ${{{}:{}}}", at + 1, escaped(&parameter.name.text))
-                .expect("a string takes all");
+            let _ = write!(snippet, " ${{{}:{}}}", at + 1, escaped(&parameter.name.text));
         }
         let detail = words::head(self.domain, name, parameters);
         self.push_list(name, item, rank, outside, (&snippet, detail));
@@ -465,6 +517,18 @@ mod tests {
         assert_eq!(at.text, "(at)");
         assert_eq!(at.snippet.as_deref(), Some("(at ${1:?d} ${2:?p})"));
         assert_eq!(at.detail, "(at ?d - dish ?p - place)");
+    }
+
+    #[test]
+    fn arguments_that_are_there_stay() {
+        let snippet = |text: &str| {
+            let (workspace, id, offset) = workspace(&[text]);
+            let found = complete(&workspace, id, offset).list;
+            found.into_iter().find(|one| one.label == "at").and_then(|one| one.snippet)
+        };
+        assert_eq!(snippet(&DOMAIN.replace("(at ?d sink)", "(a$0 ?d sink)")), None);
+        let whole = Some("at ${1:?d} ${2:?p}".to_owned());
+        assert_eq!(snippet(&DOMAIN.replace("(at ?d sink)", "(a$0)")), whole);
     }
 
     #[test]

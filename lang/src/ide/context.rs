@@ -5,6 +5,7 @@ use crate::diagnostic::Diagnostics;
 use crate::lexer::{self, Token, TokenKind};
 use crate::model::{Domain, TypeId, Variable};
 use crate::source::{SourceId, Span};
+use crate::symbol::Namespace;
 use crate::tree::{self, NodeId, Tree};
 
 /// Where the cursor stands.
@@ -17,6 +18,8 @@ pub(super) struct Context<'w> {
     pub(super) word: Span,
     /// The part of it before the cursor.
     pub(super) typed: &'w str,
+    /// Whether more stands behind it in its line and list.
+    pub(super) followed: bool,
 }
 
 /// A list that is open.
@@ -62,6 +65,8 @@ pub(super) enum Part {
     Head,
     /// A task or an action in a task network.
     Task,
+    /// The name of something that the text or its domain declares.
+    Name(Namespace),
 }
 
 impl<'w> Context<'w> {
@@ -83,7 +88,10 @@ impl<'w> Context<'w> {
         let finished = tokens.iter().take_while(|token| token.end <= start);
         let levels = open(text, finished.copied());
         let typed = &text[start as usize..at];
-        Some(Self { workspace, id, levels, word: Span::new(id, start, end), typed })
+        let behind = text[end as usize..].trim_start_matches([' ', '\t']).chars().next();
+        let followed = behind.is_some_and(|next| !matches!(next, ')' | ';' | '\r' | '\n'));
+        let word = Span::new(id, start, end);
+        Some(Self { workspace, id, levels, word, typed, followed })
     }
 
     pub(super) fn domain(&self) -> &'w Domain {
@@ -144,12 +152,16 @@ impl<'w> Context<'w> {
             0 => Part::Section,
             1 => self.in_section(written),
             _ if written == 0 => part,
-            _ => self.in_list(&self.head(level), written, part),
+            _ => self.in_list(level, part),
         }
     }
 
     fn in_section(&self, written: usize) -> Part {
-        let timed = self.head(1) == ":durative-action";
+        // In MA-PDDL what the agent of a goal or a metric is comes before it.
+        let last = self.levels[1].parts.last().copied().unwrap_or("");
+        if last == "-" || last.eq_ignore_ascii_case(":agent") {
+            return Part::Typed;
+        }
         match self.head(1).as_str() {
             "" => Part::Section,
             ":types" | ":constants" | ":objects" => Part::Typed,
@@ -159,74 +171,65 @@ impl<'w> Context<'w> {
             ":metric" if written >= 2 => Part::Number,
             ":derived" if written == 1 => Part::Head,
             ":goal" | ":derived" => Part::Condition,
-            _ => match self.field().as_str() {
-                ":parameters" | ":vars" | ":agent" => Part::Typed,
-                ":condition" if timed => Part::TimedCondition,
-                ":precondition" | ":condition" | ":constraints" | ":duration" => Part::Condition,
-                ":effect" if timed => Part::TimedEffect,
-                ":effect" | ":observe" => Part::Effect,
-                ":task" | ":tasks" | ":subtasks" | ":ordered-tasks" | ":ordered-subtasks" => {
-                    Part::Task
-                }
-                _ => Part::Unknown,
-            },
+            section => self.in_field(section == ":durative-action"),
         }
     }
 
-    fn in_list(&self, head: &str, written: usize, part: Part) -> Part {
-        use Part::{Argument, Condition, Constraint, Effect, Entry, Function, Number, Side, Task};
+    /// The value of a field, if it is not there yet.
+    fn in_field(&self, timed: bool) -> Part {
+        if self.levels[1].parts.last().is_some_and(|last| !last.starts_with(':')) {
+            return Part::Unknown;
+        }
+        match self.field().as_str() {
+            ":parameters" | ":vars" => Part::Typed,
+            ":condition" | ":duration" if timed => Part::TimedCondition,
+            ":precondition" | ":condition" | ":constraints" | ":duration" | ":context"
+            | ":implies" => Part::Condition,
+            ":ordering" => Part::Name(Namespace::Subtask),
+            ":actions" => Part::Name(Namespace::Action),
+            ":effect" if timed => Part::TimedEffect,
+            ":effect" | ":observe" => Part::Effect,
+            ":task" | ":tasks" | ":subtasks" | ":ordered-tasks" | ":ordered-subtasks" => Part::Task,
+            _ => Part::Unknown,
+        }
+    }
+
+    /// What stands in an open list behind its first word, if the list itself is `part`.
+    fn in_list(&self, level: usize, part: Part) -> Part {
+        use Part::{
+            Argument, Condition, Constraint, Effect, Entry, Function, Name, Number, Side, Task,
+            TimedCondition, TimedEffect, Typed,
+        };
+        let (head, written) = (self.head(level), self.written(level));
         let first = written == 1;
-        match (part, head) {
-            (Part::Typed | Part::Type, _) => {
-                if head == "either" {
-                    Part::Type
-                } else {
-                    Part::Typed
-                }
-            }
-            (Part::Head, _) => Part::Typed,
-            (Effect | Part::TimedEffect, "when") if first => match part {
-                Effect => Condition,
-                _ => Part::TimedCondition,
-            },
-            (
-                Effect | Part::TimedEffect,
-                "increase" | "decrease" | "assign" | "scale-up" | "scale-down",
-            ) => {
-                if first {
-                    Function
-                } else {
-                    Number
-                }
-            }
-            (
-                Condition | Part::TimedCondition | Constraint | Effect | Part::TimedEffect,
-                "forall" | "exists",
-            ) if first => Part::Typed,
-            (Part::TimedEffect, "at") => Effect,
-            (Condition, "=") => Side,
-            (Condition, ">" | "<" | ">=" | "<=") | (Number, "+" | "-" | "*" | "/") => Number,
-            (Entry, "=") => {
-                if first {
-                    Function
-                } else {
-                    Part::Unknown
-                }
-            }
-            (Part::TimedCondition, "at" | "over")
-            | (
-                Constraint,
-                "always" | "sometime" | "at-most-once" | "at" | "within" | "sometime-after"
-                | "sometime-before" | "always-within" | "hold-after" | "hold-during",
-            ) => Condition,
-            (Entry, "at") if !self.is_predicate("at") || self.is_number() => Entry,
-            (Task, "and") => Task,
-            (
-                Condition | Part::TimedCondition | Constraint | Effect | Part::TimedEffect | Entry,
-                "and" | "or" | "not" | "imply" | "forall" | "exists" | "when" | "preference"
-                | "oneof",
-            ) => part,
-            (Part::Unknown | Part::Section, _) => Part::Unknown,
+        let one_of = |words: &[&str]| words.contains(&head.as_str());
+        let is = |word: &str| head == word;
+        let formula =
+            matches!(part, Condition | TimedCondition | Constraint | Effect | TimedEffect | Entry);
+        match part {
+            Typed | Part::Type if is("either") => Part::Type,
+            Typed | Part::Type | Part::Head => Typed,
+            Part::Unknown | Part::Section => Part::Unknown,
+            Name(_) => part,
+            Effect if first && is("when") => Condition,
+            TimedEffect if first && is("when") => TimedCondition,
+            Effect | TimedEffect if one_of(&CHANGES) && first => Function,
+            Effect | TimedEffect if is("assign") => Side,
+            Effect | TimedEffect if one_of(&CHANGES) => Number,
+            _ if formula && first && one_of(&["forall", "exists"]) => Typed,
+            TimedCondition if one_of(&["at", "over"]) => Condition,
+            Constraint if one_of(&MODALITIES) => Condition,
+            TimedEffect if is("at") => Effect,
+            Condition | TimedCondition if is("=") => Side,
+            Condition | TimedCondition if one_of(&[">", "<", ">=", "<="]) => Number,
+            Number | Side if one_of(&["+", "-", "*", "/"]) => Number,
+            Number if is("is-violated") => Name(Namespace::Preference),
+            Entry if is("=") && first => Function,
+            Entry if is("=") => Side,
+            Entry if is("at") && (self.is_timed(level) || !self.is_predicate("at")) => Entry,
+            // Subtasks may have names: `(first (move ?c))`.
+            Task if is("and") || !self.is_signature(&head) => Task,
+            _ if formula && one_of(&JOINTS) => part,
             _ => Argument(written - 1),
         }
     }
@@ -235,9 +238,13 @@ impl<'w> Context<'w> {
         self.domain().predicates.iter().any(|one| one.name.text.eq_ignore_ascii_case(name))
     }
 
-    /// Whether the first argument of the innermost list is a number.
-    fn is_number(&self) -> bool {
-        let second = self.levels.last().and_then(|level| level.parts.get(1));
+    fn is_signature(&self, name: &str) -> bool {
+        self.domain().signatures.iter().any(|one| one.name.text.eq_ignore_ascii_case(name))
+    }
+
+    /// Whether the first argument of an open list is a number.
+    fn is_timed(&self, level: usize) -> bool {
+        let second = self.levels[level].parts.get(1);
         second.is_some_and(|second| second.starts_with(|one: char| one.is_ascii_digit()))
     }
 
@@ -260,7 +267,7 @@ impl<'w> Context<'w> {
         };
         match part {
             Part::Task => signature(),
-            Part::Number | Part::Function => function(),
+            Part::Number | Part::Function | Part::Argument(_) => function(),
             Part::Side => function().or_else(predicate),
             Part::Condition
             | Part::TimedCondition
@@ -302,7 +309,11 @@ impl<'w> Context<'w> {
             {
                 let of: Vec<TypeId> =
                     parts.nth(1).and_then(|of| self.type_of(whole.slice(of))).into_iter().collect();
-                found.push((whole.slice(agent).to_owned(), of));
+                if whole.is_list(agent) {
+                    self.typed_list(&whole, agent, &mut found);
+                } else {
+                    found.push((whole.slice(agent).to_owned(), of));
+                }
             }
         }
         found.retain(|(name, _)| name.len() > 1 && name.starts_with('?'));
@@ -342,6 +353,27 @@ impl<'w> Context<'w> {
     }
 }
 
+/// What changes the value of a function.
+const CHANGES: [&str; 5] = ["increase", "decrease", "assign", "scale-up", "scale-down"];
+
+/// When a condition holds along a plan.
+const MODALITIES: [&str; 10] = [
+    "always",
+    "sometime",
+    "at-most-once",
+    "at",
+    "within",
+    "sometime-after",
+    "sometime-before",
+    "always-within",
+    "hold-after",
+    "hold-during",
+];
+
+/// What joins formulas to formulas of the same kind.
+const JOINTS: [&str; 9] =
+    ["and", "or", "not", "imply", "forall", "exists", "when", "preference", "oneof"];
+
 /// The lists that are open behind `tokens`. Where a section starts, all lists but the definition are at their end, closed or not.
 fn open<'t>(text: &'t str, tokens: impl Iterator<Item = Token>) -> Vec<Level<'t>> {
     let trivia = |token: &Token| matches!(token.kind, TokenKind::Space | TokenKind::Comment);
@@ -377,5 +409,5 @@ fn open<'t>(text: &'t str, tokens: impl Iterator<Item = Token>) -> Vec<Level<'t>
 
 fn is_section(word: &str) -> bool {
     let words = glossary::DOMAIN.iter().chain(&glossary::PROBLEM);
-    word.starts_with(':') && words.into_iter().any(|one| one.text.eq_ignore_ascii_case(word))
+    word.starts_with(':') && words.into_iter().any(|one| one.spelling.eq_ignore_ascii_case(word))
 }

@@ -5,13 +5,13 @@
 /// A word, what it means, and what is written with it behind its parenthesis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Word {
-    pub(super) text: &'static str,
+    pub(super) spelling: &'static str,
     pub(super) meaning: &'static str,
     pub(super) snippet: &'static str,
 }
 
-const fn word(text: &'static str, meaning: &'static str, snippet: &'static str) -> Word {
-    Word { text, meaning, snippet }
+const fn word(word: &'static str, meaning: &'static str, snippet: &'static str) -> Word {
+    Word { spelling: word, meaning, snippet }
 }
 
 /// The sections of a domain.
@@ -191,6 +191,10 @@ pub(super) const NUMBER: [Word; 4] = [
     word("/", "the quotient", "/ $1 $0"),
 ];
 
+/// What a metric may count beside the values of functions.
+pub(super) const VIOLATED: Word =
+    word("is-violated", "how often a preference is violated", "is-violated $0");
+
 /// What may be asked for in a metric.
 pub(super) const METRIC: [Word; 2] = [
     word("minimize", "as little as possible", "minimize ($0)"),
@@ -235,7 +239,7 @@ pub(super) fn meaning(spelling: &str) -> Option<&'static str> {
         [&DOMAIN, &PROBLEM, &CONDITION, &TIMES, &CONSTRAINT, &EFFECT, &INIT, &NUMBER, &METRIC];
     let fields = FIELDS.iter().map(|(_, word)| word);
     let words = tables.into_iter().flatten().chain(fields);
-    let found = words.map(|one| (one.text, one.meaning)).chain(REQUIREMENTS);
+    let found = words.map(|one| (one.spelling, one.meaning)).chain(REQUIREMENTS);
     let mut found = found.filter(|(one, _)| one.eq_ignore_ascii_case(spelling));
     found.next().map(|(_, meaning)| meaning)
 }
