@@ -3,8 +3,10 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{ArgAction, Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use lang::portability::Tool;
 
 use crate::exit::Exit;
 
@@ -84,8 +86,8 @@ pub enum OutputFormat {
 Examples:
   caveat check domain.pddl p01.pddl p02.pddl
       a domain and problems of it
-  caveat check --output-format concise problem.pddl
-      a problem, with the domain that lies beside it; one line for each mistake
+  caveat check --for fast-downward,val problem.pddl
+      a problem, with the domain that lies beside it, and what these two programs would refuse
   caveat check --fix domain.pddl
       mend what can only have been meant in one way
 
@@ -103,6 +105,21 @@ pub struct Check {
     /// Apply the safe fixes to the files, then say what is left.
     #[arg(long)]
     pub fix: bool,
+    /// Warn of what these programs refuse or misread, too.
+    #[arg(long = "for", value_name = "TOOL", value_delimiter = ',', value_parser = tools())]
+    pub tools: Vec<Tool>,
+}
+
+/// Reads the name of a program; LAMA reads files with Fast Downward's translator.
+fn tools() -> impl TypedValueParser<Value = Tool> {
+    let possible = |tool: Tool| match tool {
+        Tool::FastDownward => PossibleValue::new(tool.name()).alias("lama"),
+        _ => PossibleValue::new(tool.name()),
+    };
+    PossibleValuesParser::new(Tool::ALL.map(possible)).map(|name| {
+        let name = if name == "lama" { Tool::FastDownward.name() } else { &name };
+        Tool::named(name).expect("only the names of tools are possible")
+    })
 }
 
 /// `caveat fmt`.

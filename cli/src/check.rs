@@ -12,9 +12,9 @@ pub fn run(arguments: &Check, terminal: &mut Terminal) -> Exit {
         return Exit::Done;
     }
     let checked = if arguments.fix {
-        Reader::fix(&arguments.files)
+        Reader::fix(&arguments.files, &arguments.tools)
     } else {
-        let mut reader = Reader::default();
+        let mut reader = Reader::of(&arguments.tools);
         reader.check(&arguments.files).map(|found| (reader, found, 0))
     };
     match checked {

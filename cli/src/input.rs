@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use lang::diagnostic::{Diagnostic, Diagnostics, Severity, not_utf8, unsupported_feature};
 use lang::model::{Domain, Problem};
+use lang::portability::{self, Tool};
 use lang::source::{SourceId, Sources, Span};
 use lang::{Kind, allow, lint, mend, render};
 use planner::normalize::Unsupported;
@@ -25,6 +26,8 @@ pub struct Reader {
     broken: Vec<Diagnostic>,
     /// Texts that stand for those of files, since they are to be written there.
     mended: BTreeMap<PathBuf, String>,
+    /// The programs that are to read the files, too.
+    tools: Vec<Tool>,
 }
 
 /// A task.
@@ -58,6 +61,11 @@ impl Refusal {
 }
 
 impl Reader {
+    /// A reader that warns of what `tools` refuse or misread.
+    pub fn of(tools: &[Tool]) -> Self {
+        Self { tools: tools.to_vec(), ..Self::default() }
+    }
+
     /// Everything that is wrong with the files in `paths`: domains alone, problems with the domain that is among the files
     /// or else lies beside them.
     pub fn check(&mut self, paths: &[PathBuf]) -> Result<Diagnostics, Complaint> {
@@ -105,6 +113,15 @@ impl Reader {
             }
             lint::tell_factors(&mut found, domain, &problem);
         }
+        for path in paths {
+            let id = self.take(path)?;
+            let wrong =
+                |one: &Diagnostic| one.severity == Severity::Error && one.primary.span.source == id;
+            // What a mistake makes of a file is no matter of who reads it.
+            if !found.list.iter().any(wrong) {
+                found.append(portability::check(&self.sources, id, &self.tools));
+            }
+        }
         allow::apply(&mut found, &self.sources);
         self.settle(&mut found);
         // File by file and line by line, whichever step found it.
@@ -116,8 +133,8 @@ impl Reader {
     ///
     /// The result is the reader of the mended texts, what is left, and how many fixes were applied. A round of fixes after which there
     /// are more errors than before is taken back.
-    pub fn fix(paths: &[PathBuf]) -> Result<(Self, Diagnostics, usize), Complaint> {
-        let mut reader = Self::default();
+    pub fn fix(paths: &[PathBuf], tools: &[Tool]) -> Result<(Self, Diagnostics, usize), Complaint> {
+        let mut reader = Self::of(tools);
         let mut found = reader.check(paths)?;
         let mut fixed = 0;
         for _ in 0..ROUNDS {
@@ -137,7 +154,7 @@ impl Reader {
             if count == 0 {
                 break;
             }
-            let mut next = Self { mended, ..Self::default() };
+            let mut next = Self { mended, ..Self::of(tools) };
             let left = next.check(paths)?;
             if errors(&left) > errors(&found) {
                 break;

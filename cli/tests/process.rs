@@ -508,6 +508,19 @@ fn what_cannot_be_planned_checks_clean() {
     );
     desk.run("check domain.pddl problem.pddl").ends_with(0);
     desk.run("plan domain.pddl problem.pddl").ends_with(34);
+    // It is right, and not for every program.
+    let run = desk.run("check --for lama,val --output-format concise domain.pddl").ends_with(1);
+    let lines: Vec<&str> = run.stdout.lines().collect();
+    assert_eq!(
+        lines,
+        [
+            "domain.pddl:2:17: warning[W0305] not-portable: Fast Downward refuses the requirement `:durative-actions`",
+            "domain.pddl:4:2: warning[W0305] not-portable: Fast Downward refuses `:durative-action`",
+        ]
+    );
+    desk.run("check --for popf --for optic domain.pddl").ends_with(0);
+    let wrong = desk.run("check --for nothing domain.pddl").ends_with(2).stderr;
+    assert!(wrong.contains("[possible values: fast-downward, val, popf"), "{wrong}");
 }
 
 #[test]

@@ -48,6 +48,7 @@ pub mod missing_requirement;
 pub mod unused_requirement;
 pub mod repeated_requirement;
 pub mod unsupported_feature;
+pub mod not_portable;
 pub mod wrong_operand_count;
 pub mod contradictory_effect;
 pub mod constant_condition;
@@ -155,6 +156,7 @@ pub const RULES: &[Rule] = &[
     unused_requirement::RULE,
     repeated_requirement::RULE,
     unsupported_feature::RULE,
+    not_portable::RULE,
     wrong_operand_count::RULE,
     contradictory_effect::RULE,
     constant_condition::RULE,

@@ -25,6 +25,7 @@ mod check;
 mod reader;
 pub mod model;
 pub mod symbol;
+pub mod portability;
 pub mod support;
 pub mod lint;
 pub mod plan;

@@ -5,6 +5,7 @@
 use std::fmt::Write;
 
 use crate::diagnostic::Diagnostics;
+use crate::portability::Tool;
 use crate::source::{SourceId, Sources};
 
 /// Checks a domain, or a domain and a problem.
@@ -25,9 +26,16 @@ pub(crate) fn lint(texts: &[&str]) {
     said(texts, Also::Lints);
 }
 
+/// Checks them for programs that are to read them.
+#[track_caller]
+pub(crate) fn port(tools: &'static [Tool], texts: &[&str]) {
+    said(texts, Also::Portability(tools));
+}
+
 /// What is said beside the mistakes.
 #[derive(Clone, Copy)]
 enum Also {
+    Portability(&'static [Tool]),
     Nothing,
     Refusals,
     Lints,
@@ -45,6 +53,11 @@ fn said(texts: &[&str], also: Also) {
     });
     match also {
         Also::Nothing => {}
+        Also::Portability(tools) => {
+            for &id in &ids {
+                diagnostics.append(crate::portability::check(&sources, id, tools));
+            }
+        }
         Also::Refusals => {
             let more = problem.iter().flat_map(|problem| &problem.uses);
             diagnostics.append(crate::refusals(domain.uses.iter().chain(more)));
