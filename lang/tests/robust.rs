@@ -74,7 +74,7 @@ fn files_below(folder: &Path, found: &mut Vec<PathBuf>) {
 }
 
 /// Of each file this many bytes are read, in prefixes as far apart as that makes them.
-const READ: usize = 15_000;
+const READ: usize = 6_000;
 
 #[test]
 fn prefixes_of_real_files_are_read() {
@@ -117,7 +117,7 @@ fn prefixes_of_real_files_are_read() {
             assert!(done.is_ok(), "{}, {end} bytes", file.display());
         }
     }
-    assert!(prefixes > 1000, "only {prefixes} prefixes were read");
+    assert!(prefixes > 400, "only {prefixes} prefixes were read");
 }
 
 #[test]
