@@ -101,7 +101,7 @@ fn a_carriage_return_alone_ends_a_line() {
 fn a_line_end_that_is_not_kept_changes_nothing() {
     let start = "(and-then-something-that-is-long (with-more-in-it ?and-more) (and-still-more) ";
     for list in ["(p\n)", "(\np)", "(a -\nb)", "(a\n- b)", "(:action\nb)", "(:task a :x\n(b))"] {
-        let flat = list.replace("\n", " ").replace("( ", "(").replace(" )", ")");
+        let flat = list.replace('\n', " ").replace("( ", "(").replace(" )", ")");
         let broken = format(&format!("{start}{list})"));
         assert_eq!(broken, format(&format!("{start}{flat})")), "{list}");
         assert_eq!(broken, format(&broken), "{list}");

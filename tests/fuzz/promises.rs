@@ -1,6 +1,6 @@
 //! Bytes of any kind go in; nothing comes out, and a panic says which promise about such a text is broken.
 //!
-//! Fuzzing (`tests/fuzz/targets`, `tests/fuzz/mutate.rs`) and the tests that run on every change share this one file.
+//! Fuzzing (`tests/fuzz/targets`, `tests/fuzz/random.rs`) and the tests that run on every change share this one file.
 
 use std::sync::Once;
 
