@@ -66,7 +66,8 @@ def read(reader, domain, problem):
 MEANT = re.compile(r"^(UP\w*|ANML\w*|PDDL\w*|Parse\w*|Unexpected\w*|Visit\w*|Lark\w*|\w*(?:Requirement|Definition|Arity|Type|Undefined|"
                    r"Duplicate|Mismatch|Missing|Invalid|Semantic)\w*|SystemExit|SyntaxError|ValueError|NotImplementedError)$")
 UNSUPPORTED = re.compile(r"unsupported|not supported|not able to handle|not implemented|unknown requirement|NotImplemented|"
-                         r"No support|does not support", re.I)
+                         # The Python package lists the requirements that it knows, the translator names the one that it does not.
+                         r"No support|does not support|NON_DETERMINISTIC|Invalid requirement", re.I)
 
 
 def worker(reader, domain, problem):
@@ -91,6 +92,9 @@ def worker(reader, domain, problem):
             line, column = (int(found[1]), int(found[2])) if found else (None, None)
         if line is None and (only := re.search(r"\bline:? *(\d+)", text, re.I)):
             line = int(only[1])
+        if column is None and (mark := re.search(r"^[ _]*[\^~]", str(error), re.M)):
+            # Loki gives the line as a number and underlines the place in a copy of it.
+            column = len(mark[0])
         answer = {"verdict": verdict, "line": line, "column": column, "message": " ".join(text.split())[:300]}
     print("\n" + json.dumps(answer))
 
@@ -174,6 +178,9 @@ def judge(reader, options, domain, problem):
 
 def place(answer, wanted):
     """How well the place of the first message fits."""
+    # What is refused as unknown in the wanted line, or where a requirement is the mistake, is found.
+    if wanted and answer["verdict"] == "unsupported" and (answer.get("line") == wanted["line"] or wanted["code"][1:3] == "03"):
+        answer["verdict"] = "rejects"
     if wanted is None or answer["verdict"] not in ("rejects", "warns"):
         return "-"
     if answer.get("line") is None:
@@ -307,9 +314,10 @@ def main():
                     if (reader, label, name) in done:
                         continue
                     answer, wall, cpu = judge(reader, options, domain, problem)
+                    fits = place(answer, wanted)
                     size = domain.stat().st_size + problem.stat().st_size
                     message = " ".join(str(answer.get("message") or "").split())
-                    values = [reader, label, name, size, answer["verdict"], place(answer, wanted), f"{wall:.4f}", f"{cpu:.4f}", message]
+                    values = [reader, label, name, size, answer["verdict"], fits, f"{wall:.4f}", f"{cpu:.4f}", message]
                     rows.append(dict(zip(COLUMNS, map(str, values))))
                     print(*values, sep="\t", file=stream, flush=True)
     print(report(rows, [reader for reader in readers if any(row["reader"] == reader for row in rows)]))
