@@ -92,8 +92,11 @@ Examples:
 Exit codes: 0 nothing wrong, 1 something is wrong (warnings count), 2 a file could not be read.")]
 pub struct Check {
     /// Domains and problems; `-` is the standard input.
-    #[arg(required = true, value_name = "FILE")]
+    #[arg(required_unless_present = "support", value_name = "FILE")]
     pub files: Vec<PathBuf>,
+    /// Say what is supported of each requirement, and by which planners it is planned; as a table in Markdown.
+    #[arg(long, conflicts_with_all = ["files", "fix"])]
+    pub support: bool,
     /// How diagnostics look.
     #[arg(long, value_name = "FORMAT", default_value = "full")]
     pub output_format: OutputFormat,

@@ -7,6 +7,10 @@ use crate::terminal::Terminal;
 
 /// Checks every file: domains alone, problems with the domain that is among the files or else lies beside them.
 pub fn run(arguments: &Check, terminal: &mut Terminal) -> Exit {
+    if arguments.support {
+        terminal.data(lang::support::table());
+        return Exit::Done;
+    }
     let checked = if arguments.fix {
         Reader::fix(&arguments.files)
     } else {

@@ -126,3 +126,10 @@ fn page() -> String {
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the crate lies in the workspace")
 }
+
+#[test]
+fn the_table_of_what_is_supported_is_the_program_s_own() {
+    let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("../README.md");
+    let readme = fs::read_to_string(readme).expect("there is a README");
+    assert!(readme.contains(&lang::support::table()));
+}

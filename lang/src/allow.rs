@@ -98,7 +98,8 @@ fn scope(tree: &Tree<'_>, comment: NodeId) -> Span {
     let follows = tree.nodes()[comment.0 as usize + 1..]
         .iter()
         .find(|node| !matches!(node.kind, NodeKind::Space | NodeKind::Comment));
-    follows.map_or(at, |node| Span::new(tree.source, node.start, node.end))
+    // From the comment on, for the annotations between the two.
+    follows.map_or(Span { start: at.end, ..whole }, |node| Span::new(tree.source, at.end, node.end))
 }
 
 #[cfg(test)]
@@ -137,6 +138,15 @@ mod tests {
         assert_eq!(left(&form), ["W0101"]);
         let file = format!("; caveat: allow(W0401, unused-parameter) both\n{head}\n {a}\n {b})");
         assert_eq!(left(&file), [""; 0]);
+    }
+
+    #[test]
+    fn an_annotation_is_silenced_from_above() {
+        let text = |above: &str| {
+            format!("(define (domain d) (:predicates (p))\n {above}\n ;@ (:author)\n)")
+        };
+        assert_eq!(left(&text("; who")), ["W1001"]);
+        assert_eq!(left(&text("; caveat: allow(unknown-annotation)")), [""; 0]);
     }
 
     #[test]

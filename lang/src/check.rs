@@ -38,6 +38,7 @@ pub use problem::problem;
 pub(crate) const OBJECT: TypeId = TypeId(0);
 
 /// What has been said so far about one text, so that nothing is said twice.
+#[expect(clippy::struct_excessive_bools, reason = "each is a question of its own about the text")]
 struct Report<'d> {
     diagnostics: &'d mut Diagnostics,
     /// The names that have been reported, in lower case, each with the code of the mistake.
@@ -49,6 +50,8 @@ struct Report<'d> {
     missing: Flags,
     /// Where a missing requirement can be written, and whether the list of them must be written too.
     flags: (Span, bool),
+    /// Whether a domain declares no requirements at all, which is a way of writing and no mistake.
+    undeclared: bool,
     /// Whether there is no domain, or only a piece of one, so that nothing can be said about unknown names but variables.
     blind: bool,
     /// Whether a metric is read, where more words have a meaning.
@@ -63,6 +66,8 @@ struct Report<'d> {
     assigned: BTreeSet<FunctionId>,
     /// The functions that the initial state gives a value that the model does not hold.
     timed: BTreeSet<FunctionId>,
+    /// Whether it gives a value to a function that is unknown, and so perhaps to any.
+    strange: bool,
     /// How many more names may be compared with a misspelt one.
     comparisons: usize,
     /// The names that have been resolved, if somebody wants to know.
@@ -88,6 +93,7 @@ impl<'d> Report<'d> {
             declared,
             missing: Flags::default(),
             flags,
+            undeclared: false,
             blind: false,
             metric: false,
             preferences: Vec::new(),
@@ -95,6 +101,7 @@ impl<'d> Report<'d> {
             read: BTreeMap::new(),
             assigned: BTreeSet::new(),
             timed: BTreeSet::new(),
+            strange: false,
             comparisons: COMPARISONS,
             occurrences,
             role: Role::default(),
@@ -127,7 +134,11 @@ impl<'d> Report<'d> {
     /// Says once for each requirement that something needs it.
     fn need(&mut self, need: Need, span: Span) {
         let (flags, proposed, name, what) = need.describe();
-        if !self.blind && !self.declared.meets(flags) && !self.missing.meets(flags) {
+        if !self.undeclared
+            && !self.blind
+            && !self.declared.meets(flags)
+            && !self.missing.meets(flags)
+        {
             self.missing.add(proposed);
             let diagnostic = missing_requirement::missing_requirement(name, span, what);
             self.push(diagnostic.fix_requirement(name, self.flags));

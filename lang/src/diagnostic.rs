@@ -92,6 +92,11 @@ pub mod constraint_position;
 pub mod subtask_arity;
 pub mod unknown_task;
 pub mod unknown_subtask;
+pub mod unknown_annotation;
+pub mod unbalanced_annotation;
+pub mod misplaced_annotation;
+pub mod loose_annotation;
+pub mod malformed_annotation;
 pub mod plan_syntax;
 pub mod plan_unknown_action;
 pub mod plan_wrong_arity;
@@ -194,6 +199,11 @@ pub const RULES: &[Rule] = &[
     subtask_arity::RULE,
     unknown_task::RULE,
     unknown_subtask::RULE,
+    unknown_annotation::RULE,
+    unbalanced_annotation::RULE,
+    misplaced_annotation::RULE,
+    loose_annotation::RULE,
+    malformed_annotation::RULE,
     plan_syntax::RULE,
     plan_unknown_action::RULE,
     plan_wrong_arity::RULE,

@@ -3,9 +3,17 @@
 //! Line ends that the author set between facts, names and operands stay.
 //! What is added is what everybody agrees on: sections and fields on lines of their own, two blanks for each level,
 //! one operand in a line where a conjunction does not fit into one.
+//! Annotations are laid out like code, with `;@` before each line of theirs.
 //! Nothing here recurses on the depth of the text.
 
+mod annotation;
+
+use std::iter::Peekable;
+use std::vec::IntoIter;
+
+use crate::annotation::{Run, runs};
 use crate::diagnostic::Diagnostics;
+use crate::lexer::line_ends;
 use crate::source::SourceId;
 use crate::tree::{self, Node, NodeId, NodeKind, Tree};
 
@@ -19,13 +27,21 @@ const STEP: usize = 2;
 ///
 /// The result has the same tokens and comments in the same order, ends with a line end, and formats to itself.
 pub fn format(text: &str) -> Option<String> {
+    lay_out(text, WIDTH, true)
+}
+
+/// Lays `text` out in lines of at most `width`; `annotated` says whether its comments may be annotations.
+fn lay_out(text: &str, width: usize, annotated: bool) -> Option<String> {
     let tree = tree::parse(SourceId(0), text, &mut Diagnostics::default());
     let sound = |node: &Node| !matches!(node.kind, NodeKind::OpenList | NodeKind::Stray);
     if !tree.nodes().iter().all(sound) {
         return None;
     }
+    let runs = if annotated { runs(&tree) } else { Vec::new() };
     let mut layout = Layout {
         tree: &tree,
+        width,
+        runs: runs.into_iter().peekable(),
         out: String::with_capacity(text.len() + text.len() / 8),
         column: 0,
         indent: 0,
@@ -79,19 +95,11 @@ enum Gap {
     Author,
 }
 
-/// How many lines end in a text: a carriage return alone ends one too, as it ends a comment.
-fn line_ends(text: &str) -> usize {
-    let bytes = text.as_bytes();
-    let ends = |at: usize| match bytes[at] {
-        b'\n' => true,
-        b'\r' => bytes.get(at + 1) != Some(&b'\n'),
-        _ => false,
-    };
-    (0..bytes.len()).filter(|&at| ends(at)).count()
-}
-
 struct Layout<'t, 'a> {
     tree: &'t Tree<'a>,
+    width: usize,
+    /// The annotations that are still to come.
+    runs: Peekable<IntoIter<Run>>,
     out: String,
     /// How much of the current line is written.
     column: usize,
@@ -113,7 +121,14 @@ impl Layout<'_, '_> {
             at += 1;
             match node.kind {
                 NodeKind::Space => self.ends += line_ends(self.tree.slice(id)),
-                NodeKind::Comment => self.comment(id),
+                NodeKind::Comment => {
+                    if let Some(run) = self.runs.next_if(|run| run.lines[0] == id) {
+                        at = run.lines[run.lines.len() - 1].0 + 1;
+                        self.run(&run);
+                    } else {
+                        self.comment(id, self.tree.slice(id).trim_end());
+                    }
+                }
                 NodeKind::Atom => {
                     self.separate(id, self.tree.slice(id).chars().count());
                     self.write(self.tree.slice(id));
@@ -133,8 +148,8 @@ impl Layout<'_, '_> {
         let flat = self.flat(id, node);
         // What fits on no line of its own may as well begin on this one.
         let width = flat.as_ref().map_or(1, |flat| flat.chars().count());
-        self.separate(id, if self.inner() + width <= WIDTH { width } else { 1 });
-        let whole = flat.filter(|flat| self.column + flat.chars().count() <= WIDTH);
+        self.separate(id, if self.inner() + width <= self.width { width } else { 1 });
+        let whole = flat.filter(|flat| self.column + flat.chars().count() <= self.width);
         self.count(None);
         if let Some(flat) = whole {
             self.write(&flat);
@@ -212,9 +227,11 @@ impl Layout<'_, '_> {
             | ":method"
             | ":task"
             | ":htn"
-            | ":concurrency-constraint" => Shape::Fields,
+            | ":concurrency-constraint"
+            | ":causal" => Shape::Fields,
             "and" | "or" => Shape::Operands,
-            ":predicates" | ":functions" => Shape::Declarations,
+            ":predicates" | ":functions" | ":measured" | ":observed" | ":exactly-one"
+            | ":at-most-one" => Shape::Declarations,
             _ => Shape::Plain,
         }
     }
@@ -230,7 +247,21 @@ impl Layout<'_, '_> {
         }
     }
 
-    fn comment(&mut self, id: NodeId) {
+    /// Writes a run of annotations.
+    fn run(&mut self, run: &Run) {
+        let width = self.width.saturating_sub(self.inner());
+        let lines = annotation::lines(self.tree, run, width);
+        let mut lines = lines.iter();
+        self.comment(run.lines[0], lines.next().map_or("", String::as_str));
+        for line in lines {
+            self.line(self.inner(), false);
+            self.write(line);
+        }
+        self.after_comment = true;
+    }
+
+    /// Writes the comment `id`, of which `text` is the text.
+    fn comment(&mut self, id: NodeId, text: &str) {
         let own_line = self.ends > 0 || self.after_comment;
         if own_line && !self.out.is_empty() {
             self.line(self.inner(), self.ends > 1);
@@ -241,7 +272,7 @@ impl Layout<'_, '_> {
             let blanks = blanks.map_or(1, |node| (node.end - node.start) as usize);
             self.write(&" ".repeat(blanks.min(WIDTH)));
         }
-        self.write(self.tree.slice(id).trim_end());
+        self.write(text);
         (self.after_comment, self.ends) = (true, 0);
     }
 
@@ -257,7 +288,7 @@ impl Layout<'_, '_> {
             || match gap {
                 Gap::Line => true,
                 Gap::Space => false,
-                Gap::Author => self.ends > 0 || self.column + 1 + width > WIDTH,
+                Gap::Author => self.ends > 0 || self.column + 1 + width > self.width,
             };
         if breaks && (!first || self.after_comment) {
             self.line(inner, blank);

@@ -11,6 +11,17 @@ mod reference;
 mod rename;
 mod hover;
 mod layout;
+mod glossary;
+mod context;
+mod complete;
+mod signature;
+mod symbols;
+mod paint;
+mod fold;
+mod hint;
+mod lens;
+mod calls;
+mod lineage;
 mod assist;
 mod plan;
 #[cfg(test)]
@@ -24,14 +35,23 @@ use crate::lint;
 use crate::model::{Domain, Problem};
 use crate::reader::{Kind, detect, index_domain, index_problem};
 use crate::source::{SourceId, Sources, Span};
-use crate::symbol::{Namespace, Occurrence, Occurrences, Symbol};
+use crate::symbol::{Namespace, Occurrence, Occurrences, Role, Symbol};
 use crate::tree::{self, NodeId, NodeKind, Tree};
 
 pub use assist::{Remedy, fix_all, remedies};
+pub use calls::{Call, Caller, caller, incoming, outgoing};
+pub use complete::{Completion, Completions, Item, complete};
+pub use fold::{Fold, FoldKind, folds, selections};
+pub use hint::{Hint, hints};
 pub use hover::hover;
 pub use layout::{Edit, difference, format};
-pub use reference::{definition, highlights, references};
+pub use lens::{Lens, lenses};
+pub use lineage::{above, below, type_at, typed_as};
+pub use paint::{Paint, Painted, paint};
+pub use reference::{achievers, definition, highlights, references};
 pub use rename::{Refusal, prepare_rename, rename};
+pub use signature::{Signature, signature};
+pub use symbols::{Entry, Found, outline, search};
 
 /// The texts of a folder and what they have to do with one another.
 #[derive(Debug)]
@@ -259,12 +279,11 @@ impl Workspace {
     pub fn target(&self, id: SourceId, symbol: Symbol) -> Option<Target> {
         let Symbol::Known(namespace, number) = symbol else { return None };
         let home = match namespace {
-            Namespace::Variable | Namespace::Subtask | Namespace::Problem => id,
             Namespace::Object if number < self.domain(id).constants.len() as u32 => {
                 self.home(id)?
             }
             Namespace::Object if self.is_plan(id) => self.partner(id)?,
-            Namespace::Object => id,
+            Namespace::Variable | Namespace::Subtask | Namespace::Problem | Namespace::Object => id,
             Namespace::Preference if self.declares(id, symbol) => id,
             _ => self.home(id)?,
         };
@@ -316,15 +335,31 @@ impl Workspace {
         found
     }
 
+    /// The names that a text declares: where a declaration says so, and the first mention of a type that only ever stands above others.
+    fn declared(&self, id: SourceId) -> Vec<Occurrence> {
+        let list = &self.analysis(id).occurrences.list;
+        let declares = |one: &&Occurrence| one.role == Role::Declare;
+        let types = self.analysis(id).domain.as_ref().map_or(0, |domain| domain.types.len());
+        let mut known = vec![false; types];
+        // Everything is an object, and nobody needs to say so.
+        let mut first = |one: &Occurrence| match one.symbol {
+            Symbol::Known(Namespace::Type, of) if of > 0 => {
+                known.get_mut(of as usize).is_some_and(|known| !std::mem::replace(known, true))
+            }
+            _ => false,
+        };
+        list.iter().filter(declares).for_each(|one| {
+            first(one);
+        });
+        list.iter().filter(|one| one.role == Role::Declare || first(one)).copied().collect()
+    }
+
     /// Where something is declared. What is only ever used, as a type above others may be, counts as declared where it stands first.
     pub fn declarations(&self, target: Target) -> Vec<Span> {
         let here = self.analysis(target.home).occurrences.list.iter();
         let here: Vec<_> = here.filter(|one| one.symbol == target.symbol).collect();
-        let declared: Vec<Span> = here
-            .iter()
-            .filter(|one| one.role == crate::symbol::Role::Declare)
-            .map(|one| one.span)
-            .collect();
+        let declared: Vec<Span> =
+            here.iter().filter(|one| one.role == Role::Declare).map(|one| one.span).collect();
         if declared.is_empty() && target.symbol.namespace() == Namespace::Type {
             return here.first().map(|one| one.span).into_iter().collect();
         }

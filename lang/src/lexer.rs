@@ -51,6 +51,17 @@ pub fn lex(text: &str) -> Vec<Token> {
     tokens
 }
 
+/// How many lines end in a text: a carriage return alone ends one too, as it ends a comment.
+pub(crate) fn line_ends(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let ends = |at: usize| match bytes[at] {
+        b'\n' => true,
+        b'\r' => bytes.get(at + 1) != Some(&b'\n'),
+        _ => false,
+    };
+    (0..bytes.len()).filter(|&at| ends(at)).count()
+}
+
 /// Whether `text` is the `-` of a typed list, or one of the dashes that word processors put in its place.
 pub fn is_dash(text: &str) -> bool {
     matches!(
@@ -98,15 +109,20 @@ pub fn check_characters(
                 continue;
             }
             seen.push(character);
+            // The quotation mark that closes says nothing that the one that opens has not.
+            seen.extend(QUOTES.iter().find(|pair| pair[0] == character).map(|pair| pair[1]));
             let start = token.start + offset as u32;
             let span = Span::new(source, start, start + character.len_utf8() as u32);
             diagnostics.push(invalid_character::invalid_character(character, span));
-            if seen.len() == LIMIT {
+            if seen.len() >= LIMIT {
                 return;
             }
         }
     }
 }
+
+/// Quotation marks that open, each with the one that closes.
+const QUOTES: [[char; 2]; 4] = [['“', '”'], ['‘', '’'], ['«', '»'], ['„', '“']];
 
 /// How many different characters are reported: beyond this the text is no PDDL at all.
 const LIMIT: usize = 20;

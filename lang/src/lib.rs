@@ -17,6 +17,7 @@ pub mod source;
 pub mod diagnostic;
 pub mod lexer;
 pub mod tree;
+pub mod annotation;
 pub mod ast;
 pub mod syntax;
 mod near;
@@ -24,6 +25,7 @@ mod check;
 mod reader;
 pub mod model;
 pub mod symbol;
+pub mod support;
 pub mod lint;
 pub mod plan;
 pub mod execute;
@@ -35,6 +37,7 @@ pub mod mend;
 pub mod render;
 pub mod ide;
 
+pub use annotation::annotations;
 pub use diagnostic::explain;
 pub use reader::{
     Kind, detect, index_domain, index_problem, parse_domain, parse_problem, read_domain,

@@ -100,7 +100,7 @@ impl Use {
 pub struct Domain {
     /// The name in `(define (domain NAME) …)`.
     pub name: Name,
-    /// What `:requirements` declares, with the aggregates (`:adl`, `:quantified-preconditions`) taken apart.
+    /// What `:requirements` declares, with the aggregates (`:adl`, `:quantified-preconditions`) taken apart, and what the domain uses without declaring it.
     pub requirements: BTreeSet<Requirement>,
     /// All types; the first is `object`, the root.
     pub types: Vec<Type>,

@@ -3,21 +3,55 @@
 /// How many single letters may differ, be missing, be too many or have changed places.
 const DISTANCE: usize = 2;
 
-/// The candidate that is nearest to `word` without case, the first of several.
+/// The candidate that is nearest to `word` without case; of several one with the same digits, and of those the first.
 ///
 /// A candidate of which more than half would have to change is no likely meaning of a short word.
+/// Digits count among names: `room12` and `room13` are two rooms, and neither is a slip of the other.
 pub fn nearest<'s>(word: &str, candidates: impl IntoIterator<Item = &'s str>) -> Option<&'s str> {
     let lower = word.to_ascii_lowercase();
-    let mut best: Option<(usize, &str)> = None;
+    let mut best: Option<((usize, bool), &str)> = None;
     for candidate in candidates {
         if candidate.len().abs_diff(word.len()) > DISTANCE {
             continue;
         }
         let distance = strsim::osa_distance(&lower, &candidate.to_ascii_lowercase());
-        let close = distance <= DISTANCE && distance * 2 <= candidate.len().max(word.len());
-        if close && best.is_none_or(|(least, _)| distance < least) {
-            best = Some((distance, candidate));
+        if distance > DISTANCE || distance * 2 > candidate.len().max(word.len()) {
+            continue;
+        }
+        let rank = (distance, !digits(word).eq(digits(candidate)));
+        if best.is_none_or(|(least, _)| rank < least) {
+            best = Some((rank, candidate));
         }
     }
     best.map(|(_, candidate)| candidate)
+}
+
+fn digits(word: &str) -> impl Iterator<Item = u8> + '_ {
+    word.bytes().filter(u8::is_ascii_digit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn a_slip_of_a_letter_or_two() {
+        for slip in ["claen", "clen", "cleean", "cleam", "CLEN", "cln"] {
+            assert_eq!(nearest(slip, ["dirty", "clean", "in"]), Some("clean"), "{slip}");
+        }
+    }
+
+    #[test]
+    fn nothing_of_what_is_too_far() {
+        assert_eq!(nearest("washed", ["dirty", "clean"]), None);
+        assert_eq!(nearest("x", ["y", "z"]), None);
+        assert_eq!(nearest("clean", []), None);
+    }
+
+    #[test]
+    fn of_equals_the_one_with_the_same_digits() {
+        assert_eq!(nearest("rom2", ["room", "room1", "room2"]), Some("room2"));
+        assert_eq!(nearest("hear2", ["heart", "heart2"]), Some("heart2"));
+        assert_eq!(nearest("room", ["room1", "room2"]), Some("room1"));
+    }
 }

@@ -2,6 +2,7 @@
 
 use logos::Logos;
 
+use crate::annotation::{self, Models};
 use crate::ast;
 use crate::check;
 use crate::diagnostic::{Diagnostics, unsupported_feature};
@@ -40,6 +41,8 @@ fn domain(
     {
         diagnostics.push(unstratified.diagnostic(&domain));
     }
+    let models = Models { domain: Some(&domain), problem: None };
+    diagnostics.append(annotation::checked(sources, id, models).1);
     (domain, sorted(diagnostics))
 }
 
@@ -76,6 +79,8 @@ fn problem(
     if diagnostics.list.iter().any(|diagnostic| diagnostic.name == "domain-name-mismatch") {
         without_strangers(&mut diagnostics);
     }
+    let models = Models { domain: Some(domain), problem: Some(&problem) };
+    diagnostics.append(annotation::checked(sources, id, models).1);
     (problem, sorted(diagnostics))
 }
 

@@ -1,4 +1,4 @@
-//! [`Token`]s go in; a lossless [`Tree`] of parentheses comes out, for any text whatever.
+//! [`Token`](crate::lexer::Token)s go in; a lossless [`Tree`] of parentheses comes out, for any text whatever.
 //!
 //! nom reads one item at a time; a loop with a stack of its own puts the items into a flat arena: [`builder`].
 //! So nothing recurses, however deep the text nests.

@@ -3,7 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use lang::annotation;
 use lang::lexer::{TokenKind, lex};
+use lang::source::Sources;
 use proptest::prelude::*;
 
 /// The text laid out, or as it is where that cannot be done.
@@ -11,19 +13,31 @@ fn format(text: &str) -> String {
     lang::format::format(text).unwrap_or_else(|| text.to_owned())
 }
 
-/// All words, parentheses and comments.
+/// All words, parentheses and comments; of annotations what stands in them, since their lines may be cut differently.
 fn tokens(text: &str) -> Vec<&str> {
-    lex(text)
-        .into_iter()
-        .filter(|token| token.kind != TokenKind::Space)
+    let words = lex(text).into_iter().filter(|token| token.kind != TokenKind::Space);
+    words
         .map(|token| text[token.start as usize..token.end as usize].trim_end())
+        .flat_map(|word| annotation::words(word).unwrap_or_else(|| vec![word]))
         .collect()
+}
+
+/// All annotations with their places, and what is wrong with them.
+fn annotations(text: &str) -> (Vec<String>, Vec<String>) {
+    let mut sources = Sources::default();
+    let id = sources.add("fixture", text);
+    let (annotations, diagnostics) = lang::annotations(&sources, id);
+    (
+        annotations.iter().map(|one| format!("{} in {}", one.expression, one.place)).collect(),
+        diagnostics.list.into_iter().map(|one| one.message).collect(),
+    )
 }
 
 #[track_caller]
 fn holds(text: &str) {
     let once = format(text);
     assert_eq!(tokens(text), tokens(&once), "tokens changed:\n{text}\n---\n{once}");
+    assert_eq!(annotations(text), annotations(&once), "annotations changed:\n{text}\n---\n{once}");
     assert_eq!(once, format(&once), "formatting again changes:\n{text}");
 }
 
@@ -86,6 +100,53 @@ fn broken_parentheses_are_left_alone() {
 }
 
 #[test]
+fn annotations_are_laid_out_like_code() {
+    let text = r#"(define (domain d)
+;@(:measured (x-offset ?up ?down - cube)  (drop-height ?up - cube)) ; millimetres
+  ;@
+      ;@ (:exactly-one (clean ?d)
+  ;@ (dirty ?d) (broken ?d)) (:at-most-one (in ?d ?p))
+
+  ;@ (:unknown a
+  ;@  b)
+  (:predicates (clean ?d)   ;@   (:seen
+    ;@ "a  (strange;   file?)")
+    (dirty ?d)     ;@ (:seen 2)
+  )
+(:action stack :precondition (and (holding ?up)
+;@ (:causal "stack-three.cbn.json" :outcome (= onTop 1) :at-least 0.9 :bind ((xOff (x-offset ?up ?down) :nominal 0 :sd 0.4)
+;@ (dropOff (drop-height ?up) :nominal 2.0 :sd 0.3) ; as measured
+;@
+;@
+;@ (xOffBelow (x-offset ?down ?base) :from (stack ?down ?base) :otherwise 0)))
+)))
+"#;
+    holds(text);
+    insta::assert_snapshot!(format(text));
+}
+
+#[test]
+fn annotations_that_are_not_clear_stay_as_they_are() {
+    let text = "(define (domain d)
+  ;@ (:exactly-one   (a)
+  ;@  (b)
+  (:predicates (a) (b)) ;@author   Lovelace  of  London
+  ;@   (:seen \"a)
+)
+";
+    assert_eq!(format(text), text);
+    holds(text);
+    assert_eq!(format(";@\n  ;@\n\n ;@   \n"), ";@\n\n;@\n");
+}
+
+#[test]
+fn remarks_in_lists_are_kept_whichever_way_lines_end() {
+    for text in ["(and ; c\r (p))", "(and ; c\r\n (p))", "(a)\r\r;@ (:a)\r;@ (:b)\r(c)"] {
+        holds(text);
+    }
+}
+
+#[test]
 fn nothing_stays_nothing() {
     assert_eq!(format(""), "");
     assert_eq!(format("\u{feff} \r\n"), "");
@@ -117,9 +178,24 @@ fn deep_nesting_takes_no_stack() {
 proptest! {
     #[test]
     fn any_text_keeps_its_tokens(pieces in prop::collection::vec(prop::sample::select(vec![
-        "(", ")", " ", "\n", "\n\n", "; c\n", ";@ (x)\n", "a", "?x", "-", ":action", ":effect", "and", "define", "(and ", "(:types ", "\r\n", "é",
+        "(", ")", " ", "\n", "\n\n", "; c\n", ";@ (x)\n", ";@ (x\n", ";@ y)\n", ";@", "\"", "\r", "\u{feff}", "(:seen", "\"a  b\"", "a", "?x", "-", ":action", ":effect", "and", "define", "(and ", "(:types ", "\r\n", "é",
     ]), 0..60)) {
         holds(&pieces.concat());
+    }
+
+    #[test]
+    fn annotations_keep_their_words(
+        lines in prop::collection::vec((0..6_usize, prop::collection::vec(prop::sample::select(vec![
+            "(", "(", ")", ")", "(:causal", "(:measured", ":bind", "\"a  b\"", "\"c;(d\"", "?x", "word", "; note", "  ", "\t", "a-rather-long-word-that-makes-lines-long",
+        ]), 0..8)), 0..12),
+    ) {
+        let mut text = String::from("(define (domain d)\n");
+        for (start, words) in lines {
+            text.push_str(["  ;@ ", ";@ ", "(p) ;@ ", "; ", "\n;@", "    ;@    "][start]);
+            text.push_str(&words.join(" "));
+            text.push('\n');
+        }
+        holds(&format!("{text})"));
     }
 
     #[test]

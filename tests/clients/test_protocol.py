@@ -17,6 +17,10 @@ CAVEAT = os.environ.get("CAVEAT", "caveat")
 FOLDER = pathlib.Path(__file__).parent / "folder"
 
 
+# How a text is encoded to count columns in what was agreed on, and how many bytes a column has then.
+UNITS = {"utf-8": ("utf-8", 1), "utf-16": ("utf-16-le", 2), "utf-32": ("utf-32-le", 4)}
+
+
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """A copy of the folder, since renames are tried on it."""
@@ -32,13 +36,18 @@ def folder(tmp_path_factory):
     scope="module",
 )
 async def client(request, folder, lsp_client: LanguageClient):
-    await lsp_client.initialize_session(
+    @lsp_client.feature(types.CLIENT_REGISTER_CAPABILITY)
+    def register(parameters):
+        """Editors watch files when they are asked to; this one lets the server ask."""
+
+    result = await lsp_client.initialize_session(
         types.InitializeParams(
             capabilities=client_capabilities(request.param),
             root_uri=folder.as_uri(),
             workspace_folders=[types.WorkspaceFolder(uri=folder.as_uri(), name="pddl")],
         )
     )
+    lsp_client.units = UNITS[result.capabilities.position_encoding or "utf-16"]
     yield
     await lsp_client.shutdown_session()
 
@@ -63,7 +72,8 @@ class Document:
         index = self.text.index(marked) + offset
         line = self.text.count("\n", 0, index)
         start = self.text.rfind("\n", 0, index) + 1
-        return types.Position(line, len(self.text[start:index].encode("utf-16-le")) // 2)
+        encoding, width = self.client.units
+        return types.Position(line, len(self.text[start:index].encode(encoding)) // width)
 
     @property
     def this(self):
@@ -112,15 +122,15 @@ def codes(diagnostics):
     return [one.code for one in diagnostics]
 
 
-def apply(text, edits):
-    """The text after edits in utf-16 positions."""
+def apply(text, edits, units=("utf-16-le", 2)):
+    """The text after edits; on a line of ASCII every encoding counts the same."""
     lines = text.splitlines(keepends=True)
 
     def index(position):
         line = "".join(lines[: position.line])
         rest = lines[position.line] if position.line < len(lines) else ""
-        units = rest.encode("utf-16-le")[: 2 * position.character]
-        return len(line) + len(units.decode("utf-16-le"))
+        encoding, width = units
+        return len(line) + len(rest.encode(encoding)[: width * position.character].decode(encoding))
 
     for edit in sorted(edits, key=lambda edit: index(edit.range.start), reverse=True):
         text = text[: index(edit.range.start)] + edit.new_text + text[index(edit.range.end) :]
@@ -230,9 +240,9 @@ async def test_references_in_all_files(client, domain):
     await domain.said()
     found = await client.text_document_references_async(
         types.ReferenceParams(
-            domain.this,
-            domain.at("(clean ?c - cup)", 1),
-            types.ReferenceContext(include_declaration=True),
+            text_document=domain.this,
+            position=domain.at("(clean ?c - cup)", 1),
+            context=types.ReferenceContext(include_declaration=True),
         )
     )
     files = sorted(one.uri.rsplit("/", 1)[-1] for one in found)
@@ -397,3 +407,4 @@ async def test_a_plan_is_validated(client, folder):
     said = await plan.said()
     assert said and said[0].code in ("E0720", "E0721"), said
     plan.close()
+    (folder / "p01.plan").unlink()

@@ -13,7 +13,7 @@ use lang::source::{SourceId, Sources, Span};
 use lang::symbol::Occurrences;
 use lang::tree::{self, NodeKind};
 use lang::validate::{self, Verdict};
-use lang::{allow, format, lint, mend, plan, print, render};
+use lang::{allow, annotation, format, lint, mend, plan, print, render};
 
 /// A name and what is promised under it.
 pub type Target = (&'static str, fn(&str));
@@ -164,14 +164,24 @@ fn printed(used: &Use) -> bool {
 
 /// Layout keeps every word and comment, and lays out its own result the same way.
 fn format(text: &str) {
-    let words = |text: &str| -> Vec<String> {
+    fn words(text: &str) -> Vec<&str> {
         let kept = |token: &lexer::Token| token.kind != TokenKind::Space;
-        let word =
-            |token: lexer::Token| text[token.start as usize..token.end as usize].trim_end().into();
-        lex(text).into_iter().filter(kept).map(word).collect()
+        let word = |token: lexer::Token| text[token.start as usize..token.end as usize].trim_end();
+        // The lines of annotations are cut anew, so what stands in them counts.
+        let within = |word| annotation::words(word).unwrap_or_else(|| vec![word]);
+        lex(text).into_iter().filter(kept).map(word).flat_map(within).collect()
+    }
+    let said = |text: &str| -> Vec<String> {
+        let mut sources = Sources::default();
+        let id = sources.add("text", text);
+        let (annotations, found) = lang::annotations(&sources, id);
+        sound(&found, &sources);
+        annotations.iter().map(|one| format!("{} in {}", one.expression, one.place)).collect()
     };
+    let annotations = said(text);
     let Some(once) = format::format(text) else { return };
     assert_eq!(words(&once), words(text), "layout keeps every word and comment:\n{once}");
+<<<<<<< HEAD
     match format::format(&once) {
         Some(twice) => assert_eq!(twice, once, "layout of a layout changes nothing"),
         // Where sections stand in odd places, missing parentheses are looked for by indentation, which layout has changed.
@@ -187,6 +197,11 @@ fn is_well_formed(text: &str) -> bool {
     lang::parse_domain(&sources, id, &mut domain);
     lang::parse_problem(&sources, id, &mut problem);
     domain.list.is_empty() || problem.list.is_empty()
+=======
+    assert_eq!(said(&once), annotations, "layout keeps every annotation:\n{once}");
+    let twice = format::format(&once).expect("what was laid out has its parentheses");
+    assert_eq!(twice, once, "layout of a layout changes nothing");
+>>>>>>> main
 }
 
 /// A plan file is read, judged and told, whatever it is; what was understood is written as it reads.

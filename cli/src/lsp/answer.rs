@@ -1,12 +1,19 @@
 //! A request goes in; its answer comes out, made of what `lang::ide` says.
 
 use gen_lsp_types::{
-    CodeAction, CodeActionKind, CodeActionRequest, CodeActionResponse, DefinitionRequest,
-    DocumentDiagnosticReport, DocumentDiagnosticRequest, DocumentFormattingRequest,
-    DocumentHighlight, DocumentHighlightRequest, DocumentRangeFormattingRequest,
-    FullDocumentDiagnosticReport, Hover, HoverRequest, Location, MarkupContent, MarkupKind,
-    PrepareRenameRequest, ReferencesRequest, RelatedFullDocumentDiagnosticReport, RenameRequest,
-    Request as Protocol, TextDocumentPositionParams, TextEdit, Uri, WorkspaceEdit,
+    CallHierarchyIncomingCall, CallHierarchyIncomingCallsRequest, CallHierarchyOutgoingCall,
+    CallHierarchyOutgoingCallsRequest, CallHierarchyPrepareRequest, CodeAction, CodeActionKind,
+    CodeActionRequest, CodeActionResponse, CodeLensRequest, CompletionRequest, DeclarationRequest,
+    Definition, DefinitionRequest, DocumentDiagnosticReport, DocumentDiagnosticRequest,
+    DocumentFormattingRequest, DocumentHighlight, DocumentHighlightRequest,
+    DocumentRangeFormattingRequest, DocumentSymbolRequest, FoldingRangeRequest,
+    FullDocumentDiagnosticReport, Hover, HoverRequest, ImplementationRequest, InlayHintRequest,
+    Location, MarkupContent, MarkupKind, Position, PrepareRenameRequest, ReferencesRequest,
+    RelatedFullDocumentDiagnosticReport, RenameRequest, Request as Protocol, SelectionRangeRequest,
+    SemanticTokens, SemanticTokensRequest, SignatureHelpRequest, TextDocumentPositionParams,
+    TextEdit, TypeDefinitionRequest, TypeHierarchyItem, TypeHierarchyPrepareRequest,
+    TypeHierarchySubtypesRequest, TypeHierarchySupertypesRequest, Uri, WorkspaceEdit,
+    WorkspaceSymbolRequest,
 };
 use lang::ide;
 use lang::source::{SourceId, Span};
@@ -22,32 +29,69 @@ pub type Trouble = (ErrorCode, String);
 /// Answers a request.
 pub fn answer(server: &mut Server, request: Request) -> Result<Value, Trouble> {
     let Request { method, params, .. } = request;
-    match method.as_str() {
-        "textDocument/hover" => with::<HoverRequest>(server, params, |server, asked| {
+    let part = method.split_once('/').map_or("", |(part, _)| part);
+    let found = match part {
+        "textDocument" => match about_name(server, &method, &params) {
+            None => about_text(server, &method, params),
+            found => found,
+        },
+        _ => about_others(server, &method, params),
+    };
+    let unknown = || Err((ErrorCode::MethodNotFound, format!("there is no method `{method}`")));
+    found.unwrap_or_else(unknown)
+}
+
+type Answer = Option<Result<Value, Trouble>>;
+
+/// Requests about what stands at a place.
+fn about_name(server: &mut Server, method: &str, params: &Value) -> Answer {
+    let params = || params.clone();
+    Some(match method {
+        "textDocument/hover" => with::<HoverRequest>(server, params(), |server, asked| {
             Ok(hover(server, &asked.text_document_position_params))
         }),
-        "textDocument/definition" => with::<DefinitionRequest>(server, params, |server, asked| {
-            let found = place(server, &asked.text_document_position_params).map(|(id, at)| {
-                locations(server, ide::definition(&server.folder.workspace, id, at))
-            });
-            Ok(found.map(|found| gen_lsp_types::Definition::LocationList(found).into()))
-        }),
-        "textDocument/references" => with::<ReferencesRequest>(server, params, |server, asked| {
-            let Some((id, at)) = place(server, &asked.text_document_position_params) else {
-                return Ok(None);
-            };
-            server.folder.load_all(id);
-            let declaration = asked.context.include_declaration;
-            let found = ide::references(&server.folder.workspace, id, at, declaration);
-            Ok(Some(locations(server, found)))
-        }),
+        "textDocument/definition" => {
+            with::<DefinitionRequest>(server, params(), |server, asked| {
+                let found = places(server, &asked.text_document_position_params, ide::definition);
+                Ok(found.map(|found| Definition::LocationList(found).into()))
+            })
+        }
+        "textDocument/declaration" => {
+            with::<DeclarationRequest>(server, params(), |server, asked| {
+                let found = places(server, &asked.text_document_position_params, ide::definition);
+                Ok(found.map(|found| gen_lsp_types::Declaration::LocationList(found).into()))
+            })
+        }
+        "textDocument/typeDefinition" => {
+            with::<TypeDefinitionRequest>(server, params(), |server, asked| {
+                let found = places(server, &asked.text_document_position_params, ide::typed_as);
+                Ok(found.map(|found| Definition::LocationList(found).into()))
+            })
+        }
+        "textDocument/implementation" => {
+            with::<ImplementationRequest>(server, params(), |server, asked| {
+                let found = places(server, &asked.text_document_position_params, ide::achievers);
+                Ok(found.map(|found| Definition::LocationList(found).into()))
+            })
+        }
+        "textDocument/references" => {
+            with::<ReferencesRequest>(server, params(), |server, asked| {
+                let Some((id, at)) = place(server, &asked.text_document_position_params) else {
+                    return Ok(None);
+                };
+                server.folder.load_all(id);
+                let declaration = asked.context.include_declaration;
+                let found = ide::references(&server.folder.workspace, id, at, declaration);
+                Ok(Some(locations(server, found)))
+            })
+        }
         "textDocument/documentHighlight" => {
-            with::<DocumentHighlightRequest>(server, params, |server, asked| {
+            with::<DocumentHighlightRequest>(server, params(), |server, asked| {
                 Ok(highlights(server, &asked.text_document_position_params))
             })
         }
         "textDocument/prepareRename" => {
-            with::<PrepareRenameRequest>(server, params, |server, asked| {
+            with::<PrepareRenameRequest>(server, params(), |server, asked| {
                 let Some((id, at)) = place(server, &asked.text_document_position_params) else {
                     return Ok(None);
                 };
@@ -59,7 +103,7 @@ pub fn answer(server: &mut Server, request: Request) -> Result<Value, Trouble> {
                 Ok(Some(server.folder.range(span).into()))
             })
         }
-        "textDocument/rename" => with::<RenameRequest>(server, params, |server, asked| {
+        "textDocument/rename" => with::<RenameRequest>(server, params(), |server, asked| {
             let Some((id, at)) = place(server, &asked.text_document_position_params) else {
                 return Ok(None);
             };
@@ -67,6 +111,48 @@ pub fn answer(server: &mut Server, request: Request) -> Result<Value, Trouble> {
             let edits = ide::rename(&server.folder.workspace, id, at, &asked.new_name);
             Ok(Some(edit(server, &edits.map_err(refused)?)))
         }),
+        "textDocument/completion" => {
+            with::<CompletionRequest>(server, params(), |server, asked| {
+                let found = place(server, &asked.text_document_position_params);
+                Ok(found.map(|(id, at)| {
+                    let found = ide::complete(&server.folder.workspace, id, at);
+                    convert::completions(&server.folder, found, server.client.snippets).into()
+                }))
+            })
+        }
+        "textDocument/signatureHelp" => {
+            with::<SignatureHelpRequest>(server, params(), |server, asked| {
+                let found = place(server, &asked.text_document_position_params);
+                let found =
+                    found.and_then(|(id, at)| ide::signature(&server.folder.workspace, id, at));
+                let encoding = server.client.encoding;
+                Ok(found.map(|found| convert::signature(found, |text| encoding.units(text))))
+            })
+        }
+        "textDocument/prepareCallHierarchy" => {
+            with::<CallHierarchyPrepareRequest>(server, params(), |server, asked| {
+                let found = place(server, &asked.text_document_position_params);
+                let found =
+                    found.and_then(|(id, at)| ide::caller(&server.folder.workspace, id, at));
+                Ok(found.map(|found| vec![convert::caller(&server.folder, &found)]))
+            })
+        }
+        "textDocument/prepareTypeHierarchy" => {
+            with::<TypeHierarchyPrepareRequest>(server, params(), |server, asked| {
+                let Some((id, at)) = place(server, &asked.text_document_position_params) else {
+                    return Ok(None);
+                };
+                let found = ide::type_at(&server.folder.workspace, id, at);
+                Ok(found.map(|span| vec![convert::type_item(&server.folder, span)]))
+            })
+        }
+        _ => return None,
+    })
+}
+
+/// Requests about a whole text or a part of it.
+fn about_text(server: &mut Server, method: &str, params: Value) -> Answer {
+    Some(match method {
         "textDocument/codeAction" => with::<CodeActionRequest>(server, params, |server, asked| {
             let Some(id) = server.folder.id(&asked.text_document.uri) else { return Ok(None) };
             let span = server.folder.span(id, asked.range);
@@ -85,6 +171,57 @@ pub fn answer(server: &mut Server, request: Request) -> Result<Value, Trouble> {
                 }))
             })
         }
+        "textDocument/documentSymbol" => {
+            with::<DocumentSymbolRequest>(server, params, |server, asked| {
+                let Some(id) = server.folder.id(&asked.text_document.uri) else { return Ok(None) };
+                let found = ide::outline(&server.folder.workspace, id);
+                Ok(Some(if server.client.nested_symbols {
+                    convert::symbols(&server.folder, &found).into()
+                } else {
+                    convert::flat_symbols(&server.folder, &found).into()
+                }))
+            })
+        }
+        "textDocument/semanticTokens/full" => {
+            with::<SemanticTokensRequest>(server, params, |server, asked| {
+                let id = server.folder.id(&asked.text_document.uri);
+                Ok(id.map(|id| {
+                    let words = ide::paint(&server.folder.workspace, id);
+                    let data = convert::tokens(&server.folder, &words);
+                    SemanticTokens { result_id: None, data }
+                }))
+            })
+        }
+        "textDocument/foldingRange" => {
+            with::<FoldingRangeRequest>(server, params, |server, asked| {
+                let id = server.folder.id(&asked.text_document.uri);
+                let found = id.map(|id| ide::folds(&server.folder.workspace, id));
+                Ok(found.map(|found| convert::folds(&server.folder, &found)))
+            })
+        }
+        "textDocument/selectionRange" => {
+            with::<SelectionRangeRequest>(server, params, |server, asked| {
+                let Some(id) = server.folder.id(&asked.text_document.uri) else { return Ok(None) };
+                let around = |position: Position| {
+                    let at = server.folder.offset(id, position);
+                    let found = ide::selections(&server.folder.workspace, id, at);
+                    convert::selection(&server.folder, &found)
+                };
+                Ok(Some(asked.positions.into_iter().map(around).collect()))
+            })
+        }
+        "textDocument/inlayHint" => with::<InlayHintRequest>(server, params, |server, asked| {
+            let Some(id) = server.folder.id(&asked.text_document.uri) else { return Ok(None) };
+            let within = server.folder.span(id, asked.range);
+            let arguments = server.client.argument_hints;
+            let found = ide::hints(&server.folder.workspace, within, arguments).into_iter();
+            Ok(Some(found.map(|hint| convert::hint(&server.folder, id, &hint)).collect()))
+        }),
+        "textDocument/codeLens" => with::<CodeLensRequest>(server, params, |server, asked| {
+            let Some(id) = server.folder.id(&asked.text_document.uri) else { return Ok(None) };
+            let found = ide::lenses(&server.folder.workspace, id);
+            Ok(Some(found.iter().map(|lens| convert::lens(&server.folder, lens)).collect()))
+        }),
         "textDocument/diagnostic" => {
             with::<DocumentDiagnosticRequest>(server, params, |server, asked| {
                 let id = server.folder.id(&asked.text_document.uri);
@@ -96,8 +233,87 @@ pub fn answer(server: &mut Server, request: Request) -> Result<Value, Trouble> {
                 }))
             })
         }
-        _ => Err((ErrorCode::MethodNotFound, format!("there is no method `{method}`"))),
-    }
+        _ => return None,
+    })
+}
+
+/// Requests about the folder, and about what an answer named before.
+fn about_others(server: &mut Server, method: &str, params: Value) -> Answer {
+    Some(match method {
+        "workspace/symbol" => with::<WorkspaceSymbolRequest>(server, params, |server, asked| {
+            server.folder.load_roots();
+            let found = ide::search(&server.folder.workspace, &asked.query);
+            let folder = &server.folder;
+            let shown = found.iter().map(|one| convert::workspace_symbol(folder, one));
+            Ok(Some(shown.collect::<Vec<_>>().into()))
+        }),
+        "callHierarchy/incomingCalls" => {
+            with::<CallHierarchyIncomingCallsRequest>(server, params, |server, asked| {
+                let item = &asked.item;
+                let found = calls(server, &item.uri, item.selection_range.start, ide::incoming);
+                let call = |(from, from_ranges)| CallHierarchyIncomingCall { from, from_ranges };
+                Ok(found.map(|found| found.into_iter().map(call).collect()))
+            })
+        }
+        "callHierarchy/outgoingCalls" => {
+            with::<CallHierarchyOutgoingCallsRequest>(server, params, |server, asked| {
+                let item = &asked.item;
+                let found = calls(server, &item.uri, item.selection_range.start, ide::outgoing);
+                let call = |(to, from_ranges)| CallHierarchyOutgoingCall { to, from_ranges };
+                Ok(found.map(|found| found.into_iter().map(call).collect()))
+            })
+        }
+        "typeHierarchy/supertypes" => {
+            with::<TypeHierarchySupertypesRequest>(server, params, |server, asked| {
+                Ok(types(server, &asked.item, ide::above))
+            })
+        }
+        "typeHierarchy/subtypes" => {
+            with::<TypeHierarchySubtypesRequest>(server, params, |server, asked| {
+                Ok(types(server, &asked.item, ide::below))
+            })
+        }
+        _ => return None,
+    })
+}
+
+/// Where something is that is connected with the name at a place.
+fn places(
+    server: &Server,
+    asked: &TextDocumentPositionParams,
+    find: impl Fn(&ide::Workspace, SourceId, u32) -> Vec<Span>,
+) -> Option<Vec<Location>> {
+    let (id, at) = place(server, asked)?;
+    Some(locations(server, find(&server.folder.workspace, id, at)))
+}
+
+/// What is connected with an item of an earlier answer, and where.
+fn calls(
+    server: &Server,
+    uri: &Uri,
+    position: Position,
+    find: impl Fn(&ide::Workspace, &ide::Caller) -> Vec<ide::Call>,
+) -> Option<Vec<(gen_lsp_types::CallHierarchyItem, Vec<gen_lsp_types::Range>)>> {
+    let folder = &server.folder;
+    let id = folder.id(uri)?;
+    let of = ide::caller(&folder.workspace, id, folder.offset(id, position))?;
+    let shown = find(&folder.workspace, &of).into_iter().map(|call| {
+        let ranges = call.places.iter().map(|&span| folder.range(span)).collect();
+        (convert::caller(folder, &call.other), ranges)
+    });
+    Some(shown.collect())
+}
+
+/// The types around an item of an earlier answer.
+fn types(
+    server: &Server,
+    item: &TypeHierarchyItem,
+    find: impl Fn(&ide::Workspace, SourceId, u32) -> Vec<Span>,
+) -> Option<Vec<TypeHierarchyItem>> {
+    let folder = &server.folder;
+    let id = folder.id(&item.uri)?;
+    let found = find(&folder.workspace, id, folder.offset(id, item.selection_range.start));
+    Some(found.into_iter().map(|span| convert::type_item(folder, span)).collect())
 }
 
 /// Reads the parameters of a request, and writes its answer.

@@ -1,16 +1,22 @@
 //! What a client can do goes in; what this server offers it comes out.
 
 use gen_lsp_types::{
-    ClientCapabilities, CodeActionKind, CodeActionOptions, DiagnosticOptions, InitializeParams,
-    RenameOptions, ServerCapabilities, TextDocumentSyncKind, TextDocumentSyncOptions,
+    ClientCapabilities, CodeActionKind, CodeActionOptions, CodeLensOptions, CompletionOptions,
+    DiagnosticOptions, InitializeParams, RenameOptions, SemanticTokensOptions, ServerCapabilities,
+    SignatureHelpOptions, TextDocumentSyncKind, TextDocumentSyncOptions,
     WorkspaceFoldersServerCapabilities, WorkspaceOptions,
 };
 use serde_json::Value;
 
+use super::convert;
 use super::position::Encoding;
 
 /// What matters of what a client can do and wants.
 #[derive(Debug, Clone, Copy, Default)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is something that the client can do or cannot"
+)]
 pub struct Client {
     /// What columns count.
     pub encoding: Encoding,
@@ -84,6 +90,33 @@ impl Client {
                         CodeActionKind::SourceFixAll,
                     ]),
                     ..CodeActionOptions::default()
+                }
+                .into(),
+            ),
+            declaration_provider: Some(true.into()),
+            type_definition_provider: Some(true.into()),
+            implementation_provider: Some(true.into()),
+            completion_provider: Some(CompletionOptions {
+                trigger_characters: Some(["(", "?", ":", " "].map(str::to_owned).to_vec()),
+                ..CompletionOptions::default()
+            }),
+            signature_help_provider: Some(SignatureHelpOptions {
+                trigger_characters: Some(["(", " "].map(str::to_owned).to_vec()),
+                ..SignatureHelpOptions::default()
+            }),
+            document_symbol_provider: Some(true.into()),
+            workspace_symbol_provider: Some(true.into()),
+            folding_range_provider: Some(true.into()),
+            selection_range_provider: Some(true.into()),
+            inlay_hint_provider: Some(true.into()),
+            call_hierarchy_provider: Some(true.into()),
+            type_hierarchy_provider: Some(true.into()),
+            code_lens_provider: Some(CodeLensOptions::default()),
+            semantic_tokens_provider: Some(
+                SemanticTokensOptions {
+                    legend: convert::legend(),
+                    full: Some(true.into()),
+                    ..SemanticTokensOptions::default()
                 }
                 .into(),
             ),

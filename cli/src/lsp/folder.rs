@@ -95,6 +95,23 @@ impl Folder {
         self.pair();
     }
 
+    /// Looks again at the files on which the open texts depend, which may change without a word from the editor.
+    pub fn refresh_partners(&mut self) {
+        let opened = self.opened();
+        let partners = opened.iter().filter_map(|&id| self.workspace.partner(id));
+        let more: Vec<SourceId> = partners.collect();
+        let above = more.iter().filter_map(|&id| self.workspace.partner(id));
+        let all: BTreeSet<SourceId> = more.iter().copied().chain(above).collect();
+        let paths: Vec<PathBuf> = all.iter().map(|id| self.documents[id].path.clone()).collect();
+        let mut changed = false;
+        for path in paths {
+            changed |= self.load(&path);
+        }
+        if changed {
+            self.pair();
+        }
+    }
+
     /// The text at an address, if it is known.
     pub fn id(&self, uri: &Uri) -> Option<SourceId> {
         self.ids.get(&address::path(uri)).copied()
@@ -209,26 +226,28 @@ impl Folder {
         }
     }
 
-    /// Reads a file, if it has changed since it was read last and is not open.
-    fn load(&mut self, path: &Path) {
+    /// Reads a file, if it has changed since it was read last and is not open; says whether it was read.
+    fn load(&mut self, path: &Path) -> bool {
         let known = self.ids.get(path).and_then(|id| self.documents.get(id));
         if !address::is_file(path) || known.is_some_and(|document| document.open.is_some()) {
-            return;
+            return false;
         }
         let data = fs::metadata(path).ok().filter(fs::Metadata::is_file);
         let stamp = data.and_then(|data| Some((data.modified().ok()?, data.len())));
         if known.is_some_and(|document| document.stamp.is_some() && document.stamp == stamp) {
-            return;
+            return false;
         }
         match stamp.and_then(|_| files::read(path).ok()) {
             Some(text) => {
                 self.put(path, text.text, stamp);
+                true
             }
             // A file that is gone says nothing any more.
             None if known.is_some() => {
                 self.put(path, String::new(), None);
+                true
             }
-            None => {}
+            None => false,
         }
     }
 
@@ -350,7 +369,8 @@ pub fn is_plan(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let numbered = name.trim_end_matches(|letter: char| letter.is_ascii_digit());
     let bare = numbered.strip_suffix('.').unwrap_or(numbered);
-    name.starts_with("sas_plan") || bare.ends_with(".plan") || name.ends_with(".plan")
+    let ends = |name: &str| Path::new(name).extension().is_some_and(|ending| ending == "plan");
+    name.starts_with("sas_plan") || ends(bare) || ends(&name)
 }
 
 #[cfg(test)]

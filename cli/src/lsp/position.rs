@@ -24,6 +24,14 @@ impl Encoding {
         known.unwrap_or_default()
     }
 
+    /// How much a piece of a text counts.
+    pub fn units(self, text: &str) -> u32 {
+        match self {
+            Self::Utf8 => text.len() as u32,
+            Self::Utf16 => text.encode_utf16().count() as u32,
+        }
+    }
+
     /// As the protocol names it.
     pub fn kind(self) -> PositionEncodingKind {
         match self {
@@ -33,6 +41,16 @@ impl Encoding {
     }
 }
 
+/// A character of several bytes, which are fewer units.
+#[derive(Debug, Clone, Copy)]
+struct Wide {
+    /// Its first byte, and the byte after its last.
+    start: u32,
+    end: u32,
+    /// How many more bytes than units there are up to its end.
+    more: u32,
+}
+
 /// Where the lines of a text begin, and what its wide characters do to columns.
 #[derive(Debug, Clone, Default)]
 pub struct Lines {
@@ -40,8 +58,8 @@ pub struct Lines {
     starts: Vec<u32>,
     /// The byte after each line, without its line end.
     ends: Vec<u32>,
-    /// The byte after each character that is not ASCII, with how many more bytes than units there are up to it.
-    wide: Vec<(u32, u32)>,
+    /// The characters that are not ASCII.
+    wide: Vec<Wide>,
 }
 
 impl Lines {
@@ -66,7 +84,8 @@ impl Lines {
             let mut more = 0;
             for (at, character) in text.char_indices().filter(|(_, one)| !one.is_ascii()) {
                 more += (character.len_utf8() - character.len_utf16()) as u32;
-                lines.wide.push(((at + character.len_utf8()) as u32, more));
+                let end = (at + character.len_utf8()) as u32;
+                lines.wide.push(Wide { start: at as u32, end, more });
             }
         }
         lines
@@ -74,33 +93,18 @@ impl Lines {
 
     /// How many units there are up to a byte, over all lines.
     fn units(&self, offset: u32) -> u32 {
-        let before = self.wide.partition_point(|&(end, _)| end <= offset);
-        offset - before.checked_sub(1).map_or(0, |last| self.wide[last].1)
+        let before = self.wide.partition_point(|wide| wide.end <= offset);
+        offset - before.checked_sub(1).map_or(0, |last| self.wide[last].more)
     }
 
     /// The byte up to which there are so many units; of a character that is cut, its first byte.
     fn byte(&self, units: u32) -> u32 {
-        let before = self.wide.partition_point(|&(end, more)| end - more <= units);
-        let offset = units + before.checked_sub(1).map_or(0, |last| self.wide[last].1);
+        let before = self.wide.partition_point(|wide| wide.end - wide.more <= units);
+        let offset = units + before.checked_sub(1).map_or(0, |last| self.wide[last].more);
         // Up to here nothing is cut but in the character that comes next.
         match self.wide.get(before) {
-            Some(&(end, more)) => {
-                let (bytes, count) = self.width(before, more);
-                let start = end - bytes;
-                if offset > start && offset < start + count { start } else { offset }
-            }
+            Some(wide) => offset.min(wide.start),
             None => offset,
-        }
-    }
-
-    /// How many bytes and units the wide character at a position of the table has.
-    fn width(&self, at: usize, more: u32) -> (u32, u32) {
-        let before = at.checked_sub(1).map_or(0, |last| self.wide[last].1);
-        // 2 bytes and 3 bytes are one unit, 4 bytes are two.
-        match more - before {
-            1 => (2, 1),
-            2 => (3, 1),
-            _ => (4, 2),
         }
     }
 

@@ -89,7 +89,7 @@ impl Server {
                 let done = fault::contain(STACK, || self.notification(notification));
                 self.complain(done);
             }
-            // The only requests that the server makes are to be told of changes; whether it is does not matter.
+            // The server asks only to be told of changes, and whether it is makes no difference here.
             Message::Response(_) => {}
         }
     }
@@ -250,7 +250,11 @@ impl Server {
             return;
         }
         let folder = &mut self.folder;
-        match fault::contain(STACK, move || diagnose::all(folder)) {
+        let look = move || {
+            folder.refresh_partners();
+            diagnose::all(folder)
+        };
+        match fault::contain(STACK, look) {
             Ok(found) => self.publish(found),
             Err(fault) => self.complain(Err(fault)),
         }

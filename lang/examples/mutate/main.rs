@@ -3,6 +3,8 @@
 //! `cargo run -p caveat-lang --example mutate`, or with paths of files or folders to break those instead.
 //! `--seed N` draws other places, `--trials N` breaks each file so many times in each way,
 //! and `--show KIND` prints the first cases of that kind that fall short.
+//! `--layout line` puts each file on one line before it is broken, `--layout flat` takes the indentation away,
+//! and `--layout ours` lays it out as `caveat fmt` does.
 //!
 //! One file of each folder is taken that defines a domain, and one that defines a problem of it.
 //! What counts as a mistake, and on which lines it may be reported, is told in `mutation.rs`, kind by kind.
@@ -41,6 +43,7 @@ struct Options {
     seed: u64,
     trials: usize,
     show: Option<String>,
+    layout: Option<String>,
 }
 
 /// How often what was the case.
@@ -65,7 +68,7 @@ fn main() -> ExitCode {
         tasks += 1;
         for (role, path) in [(Role::Domain, Some(&domain)), (Role::Problem, problem.as_ref())] {
             let Some(path) = path else { continue };
-            let text = read(path);
+            let text = text::layout(read(path), options.layout.as_deref());
             if text.len() > LONGEST {
                 continue;
             }
@@ -105,7 +108,7 @@ fn options() -> Options {
     let repository = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let shared = std::env::var_os("CAVEAT_SHARED")
         .map_or_else(|| repository.join("../shared"), PathBuf::from);
-    let mut options = Options { paths: Vec::new(), seed: 1, trials: 4, show: None };
+    let mut options = Options { paths: Vec::new(), seed: 1, trials: 4, show: None, layout: None };
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         let mut value = || arguments.next().expect("the option has a value");
@@ -113,6 +116,7 @@ fn options() -> Options {
             "--seed" => options.seed = value().parse().expect("a seed is a number"),
             "--trials" => options.trials = value().parse().expect("trials are a number"),
             "--show" => options.show = Some(value()),
+            "--layout" => options.layout = Some(value()),
             _ => options.paths.push(argument.into()),
         }
     }
@@ -132,15 +136,17 @@ fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// All files of PDDL at the path and below it.
+/// All files of PDDL and HDDL at the path and below it.
 fn files_below(path: &Path, found: &mut Vec<PathBuf>) {
     if path.is_dir() {
         let entries = fs::read_dir(path).expect("the folder can be read");
         let mut entries: Vec<PathBuf> =
             entries.map(|entry| entry.expect("an entry can be read").path()).collect();
         entries.sort();
-        entries.iter().for_each(|path| files_below(path, found));
-    } else if path.extension().is_some_and(|end| end == "pddl") {
+        for path in entries {
+            files_below(&path, found);
+        }
+    } else if path.extension().is_some_and(|end| end == "pddl" || end == "hddl") {
         found.push(path.to_owned());
     }
 }

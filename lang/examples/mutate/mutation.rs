@@ -12,7 +12,7 @@
 //!   Only uses are misspelt: a declaration that is misspelt cannot be told from uses that are.
 //!   What is used and never declared, such as a type that stands after a `-` in `:types` only, counts as declaration.
 //!   It does not count if the new word exists too, in the same role: that is another text and not a misspelt one;
-//!   and a word must have two letters at least, since nothing is left of a single one.
+//!   and a single letter is neither dropped nor changed, since nothing would be left of the word.
 //! - A dropped argument counts where a predicate or a function that is declared once is applied.
 //!   Right are the lines of the atom.
 //! - Swapped arguments count where one of the two may not stand where the other stood, by the declared types.
@@ -137,8 +137,8 @@ fn parenthesis(kind: Kind, text: &Text<'_>, random: &mut Random) -> Option<Mutat
         (0..text.tokens.len()).filter(|&index| text.tokens[index].kind == wanted).collect();
     let index = *random.pick(&places)?;
     let at = text.tokens[index].start as usize;
-    let line = line_of(text.text, at);
-    let mut broken = text.text.to_owned();
+    let line = line_of(text.whole, at);
+    let mut broken = text.whole.to_owned();
     let paren = if wanted == TokenKind::Open { "(" } else { ")" };
     let (lines, verb) = match kind {
         Kind::DropClose => {
@@ -146,7 +146,7 @@ fn parenthesis(kind: Kind, text: &Text<'_>, random: &mut Random) -> Option<Mutat
             // The run of `)` with at most blanks between them.
             let touches = |&other: &usize| {
                 let there = text.tokens[other].start as usize;
-                let between = &text.text[at.min(there)..at.max(there)];
+                let between = &text.whole[at.min(there)..at.max(there)];
                 between.bytes().all(|byte| matches!(byte, b')' | b' ' | b'\t'))
                     && text.tokens[other].kind == TokenKind::Close
             };
@@ -160,7 +160,7 @@ fn parenthesis(kind: Kind, text: &Text<'_>, random: &mut Random) -> Option<Mutat
                         .iter()
                         .find(|node| node.end == end && node.kind == lang::tree::NodeKind::List)
                 })
-                .map(|list| line_of(text.text, list.start as usize))
+                .map(|list| line_of(text.whole, list.start as usize))
                 .min();
             (first.unwrap_or(line)..=line, "dropped")
         }
@@ -173,7 +173,7 @@ fn parenthesis(kind: Kind, text: &Text<'_>, random: &mut Random) -> Option<Mutat
             (line..=line, "doubled")
         }
     };
-    let column = at - text.text[..at].rfind('\n').map_or(0, |end| end + 1) + 1;
+    let column = at - text.whole[..at].rfind('\n').map_or(0, |end| end + 1) + 1;
     let what = format!("`{paren}` {verb} at {line}:{column}");
     Some(Mutation { text: broken, what, at, lines: vec![lines], original: None })
 }
@@ -182,13 +182,11 @@ fn parenthesis(kind: Kind, text: &Text<'_>, random: &mut Random) -> Option<Mutat
 fn misspell(word: &str, random: &mut Random) -> Option<String> {
     let letters: Vec<usize> =
         word.char_indices().filter(|(_, c)| c.is_ascii_alphabetic()).map(|(at, _)| at).collect();
-    if letters.len() < 2 {
-        return None;
-    }
     let at = *random.pick(&letters)?;
     let letter = ["a", "c", "e", "i", "l", "n", "o", "r", "s", "t"][random.below(10)];
     let mut broken = word.to_owned();
-    match random.below(4) {
+    let way = if letters.len() < 2 { 2 } else { random.below(4) };
+    match way {
         0 => {
             let next = letters.iter().copied().find(|&next| next == at + 1)?;
             let pair = format!("{}{}", &word[next..=next], &word[at..=at]);
@@ -206,10 +204,10 @@ fn misspell(word: &str, random: &mut Random) -> Option<String> {
 /// The text with another word at `range`.
 fn replaced(text: &Text<'_>, start: u32, end: u32, word: &str) -> Mutation {
     let (start, end) = (start as usize, end as usize);
-    let mut broken = text.text.to_owned();
+    let mut broken = text.whole.to_owned();
     broken.replace_range(start..end, word);
-    let line = line_of(text.text, start);
-    let original = &text.text[start..end];
+    let line = line_of(text.whole, start);
+    let original = &text.whole[start..end];
     Mutation {
         text: broken,
         what: format!("`{original}` misspelt as `{word}` on line {line}"),
@@ -259,9 +257,14 @@ fn name(namespace: Namespace, text: &Text<'_>, random: &mut Random) -> Option<Mu
         }
     }
     let broken = misspell(text.slice(span.start, span.end), random)?;
-    let taken = text.is_taken(namespace, &broken)
-        || namespace == Namespace::Predicate && text.is_taken(Namespace::Function, &broken)
-        || namespace == Namespace::Function && text.is_taken(Namespace::Predicate, &broken)
+    let within = match namespace {
+        // Another action may have a variable of that name.
+        Namespace::Variable => text.section_at(span.start).map(|(section, _)| section),
+        _ => None,
+    };
+    let taken = text.is_taken(namespace, &broken, within)
+        || namespace == Namespace::Predicate && text.is_taken(Namespace::Function, &broken, None)
+        || namespace == Namespace::Function && text.is_taken(Namespace::Predicate, &broken, None)
         || WORDS.iter().any(|word| word.eq_ignore_ascii_case(&broken));
     (!taken).then(|| replaced(text, span.start, span.end, &broken))
 }
@@ -292,7 +295,7 @@ fn keyword(kind: Kind, text: &Text<'_>, random: &mut Random) -> Option<Mutation>
     }
     let node = tree.node(*random.pick(&words)?);
     let broken = misspell(text.slice(node.start, node.end), random)?;
-    let taken = text.is_taken(Namespace::Predicate, &broken)
+    let taken = text.is_taken(Namespace::Predicate, &broken, None)
         || words.iter().any(|&word| tree.slice(word).eq_ignore_ascii_case(&broken))
         || WORDS.iter().any(|word| word.eq_ignore_ascii_case(&broken));
     (!taken).then(|| replaced(text, node.start, node.end, &broken))
@@ -321,11 +324,11 @@ fn drop_argument(text: &Text<'_>, random: &mut Random) -> Option<Mutation> {
     let (list, _, arguments) = random.pick(&all)?;
     let argument = text.tree.node(*random.pick(arguments)?);
     let (start, end) = (argument.start as usize, argument.end as usize);
-    let mut broken = text.text.to_owned();
+    let mut broken = text.whole.to_owned();
     broken.replace_range(start..end, "");
-    let first = line_of(text.text, text.tree.node(*list).start as usize);
-    let last = line_of(text.text, start);
-    let what = format!("`{}` dropped on line {last}", &text.text[start..end]);
+    let first = line_of(text.whole, text.tree.node(*list).start as usize);
+    let last = line_of(text.whole, start);
+    let what = format!("`{}` dropped on line {last}", &text.whole[start..end]);
     Some(Mutation { text: broken, what, at: start, lines: vec![first..=last], original: None })
 }
 
@@ -334,7 +337,7 @@ fn types_of(text: &Text<'_>, term: NodeId) -> Option<(Vec<TypeId>, bool)> {
     let start = text.tree.node(term).start;
     let found = text.names.iter().find(|one| one.span.start == start)?;
     let mut sources = lang::source::Sources::default();
-    let id = sources.add("text", text.text);
+    let id = sources.add("text", text.whole);
     match found.symbol {
         Symbol::Known(Namespace::Variable, declared) => {
             let variables = if text.is_domain {
@@ -387,13 +390,13 @@ fn swap_arguments(text: &Text<'_>, random: &mut Random) -> Option<Mutation> {
     let words = (text.slice(a.start, a.end), text.slice(b.start, b.end));
     let broken = format!(
         "{}{}{}{}{}",
-        &text.text[..a.start as usize],
+        &text.whole[..a.start as usize],
         words.1,
         text.slice(a.end, b.start),
         words.0,
-        &text.text[b.end as usize..]
+        &text.whole[b.end as usize..]
     );
-    let lines = [a.start, b.start].map(|at| line_of(text.text, at as usize));
+    let lines = [a.start, b.start].map(|at| line_of(text.whole, at as usize));
     Some(Mutation {
         text: broken,
         what: format!("`{}` and `{}` swapped on line {}", words.0, words.1, lines[0]),
@@ -423,10 +426,10 @@ fn drop_requirement(text: &Text<'_>, random: &mut Random) -> Option<Mutation> {
     if lines.is_empty() {
         return None;
     }
-    let line = line_of(text.text, tree.node(keyword).start as usize);
+    let line = line_of(text.whole, tree.node(keyword).start as usize);
     lines.push(line..=line);
     let node = tree.node(dropped);
-    let mut broken = text.text.to_owned();
+    let mut broken = text.whole.to_owned();
     broken.replace_range(node.start as usize..node.end as usize, "");
     let what = format!("`{}` dropped", tree.slice(dropped));
     Some(Mutation { text: broken, what, at: node.start as usize, lines, original: None })

@@ -62,7 +62,7 @@ pub fn uses(text: &Text<'_>) -> BTreeMap<Feature, Vec<usize>> {
     let mut found: BTreeMap<Feature, Vec<usize>> = BTreeMap::new();
     let tree = &text.tree;
     let mut note = |feature: Feature, at: NodeId| {
-        found.entry(feature).or_default().push(line_of(text.text, tree.node(at).start as usize));
+        found.entry(feature).or_default().push(line_of(text.whole, tree.node(at).start as usize));
     };
     for (section, keyword) in text.sections() {
         let word = tree.slice(keyword).to_ascii_lowercase();

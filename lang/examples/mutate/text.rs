@@ -9,7 +9,7 @@ use lang::tree::{self, NodeId, Tree};
 
 /// A text with everything that is known of it.
 pub struct Text<'a> {
-    pub text: &'a str,
+    pub whole: &'a str,
     /// Parentheses and words, without blanks and comments.
     pub tokens: Vec<Token>,
     pub tree: Tree<'a>,
@@ -33,11 +33,11 @@ impl<'a> Text<'a> {
             matches!(token.kind, TokenKind::Open | TokenKind::Close | TokenKind::Atom)
         });
         let tree = tree::parse(SourceId(0), text, &mut Diagnostics::default());
-        Self { text, tokens, tree, names: names.list, domain, is_domain }
+        Self { whole: text, tokens, tree, names: names.list, domain, is_domain }
     }
 
     pub fn slice(&self, start: u32, end: u32) -> &'a str {
-        &self.text[start as usize..end as usize]
+        &self.whole[start as usize..end as usize]
     }
 
     /// Names of the kind that are used, not declared.
@@ -47,8 +47,8 @@ impl<'a> Text<'a> {
         uses
     }
 
-    /// Whether some name of the kind is spelt so, here or in the domain.
-    pub fn is_taken(&self, namespace: Namespace, word: &str) -> bool {
+    /// Whether some name of the kind is spelt so: in a list of the text if one is given, else in the text or the domain.
+    pub fn is_taken(&self, namespace: Namespace, word: &str, within: Option<NodeId>) -> bool {
         let constants = self.domain.constants.iter().map(|object| object.name.text.as_str());
         let elsewhere: Vec<&str> = match namespace {
             Namespace::Predicate => {
@@ -61,7 +61,11 @@ impl<'a> Text<'a> {
             Namespace::Object => constants.collect(),
             _ => Vec::new(),
         };
-        let mut here = self.names.iter().filter(|one| one.symbol.namespace() == namespace);
+        let range = within.map(|list| self.tree.node(list));
+        let mut here = self.names.iter().filter(|one| {
+            one.symbol.namespace() == namespace
+                && range.is_none_or(|list| (list.start..list.end).contains(&one.span.start))
+        });
         elsewhere.iter().any(|other| other.eq_ignore_ascii_case(word))
             || here.any(|one| self.slice(one.span.start, one.span.end).eq_ignore_ascii_case(word))
     }
@@ -88,19 +92,33 @@ impl<'a> Text<'a> {
     /// The innermost list around a byte.
     pub fn list_at(&self, at: u32) -> Option<NodeId> {
         let nodes = self.tree.nodes();
-        let lists = (0..nodes.len() as u32).map(NodeId).filter(|&id| self.tree.is_list(id));
-        lists
-            .filter(|&id| {
-                let node = self.tree.node(id);
-                node.start < at && at < node.end
-            })
-            .last()
+        let mut lists = (0..nodes.len() as u32).map(NodeId).filter(|&id| self.tree.is_list(id));
+        lists.rfind(|&id| {
+            let node = self.tree.node(id);
+            node.start < at && at < node.end
+        })
+    }
+}
+
+/// The text with its lines as they are wanted.
+pub fn layout(text: String, how: Option<&str>) -> String {
+    let bare = |text: &str| {
+        let tokens = lexer::lex(text);
+        let kept = tokens.iter().filter(|token| token.kind != TokenKind::Comment);
+        kept.map(|token| &text[token.start as usize..token.end as usize]).collect::<String>()
+    };
+    match how {
+        Some("line") => bare(&text).split_whitespace().collect::<Vec<_>>().join(" "),
+        Some("flat") => text.lines().map(str::trim).collect::<Vec<_>>().join("\n"),
+        Some("ours") => lang::format::format(&text).unwrap_or(text),
+        Some(other) => panic!("there is no layout `{other}`"),
+        None => text,
     }
 }
 
 /// The line of a byte; the first has number one.
 pub fn line_of(text: &str, at: usize) -> usize {
-    1 + text.as_bytes()[..at.min(text.len())].iter().filter(|&&byte| byte == b'\n').count()
+    1 + text[..at].matches('\n').count()
 }
 
 /// Numbers that look random and are the same on every run: `SplitMix64`.

@@ -31,6 +31,7 @@ pub fn domain(
     let place = requirement::place(sections().flatten().last().copied(), ast.name);
     let mut report = Report::new(diagnostics, flags, place, occurrences);
     report.declared_here(ast.name, Namespace::Domain);
+    report.undeclared = sections().next().is_none();
     let declares = |section: &_| matches!(section, DomainSection::Predicates(_));
     report.blind = ast.name.text.is_empty() && !ast.sections.iter().any(declares);
     let mut names = Names::default();
@@ -77,6 +78,9 @@ pub fn domain(
     for function in std::mem::take(&mut report.assigned) {
         domain.functions[function.index()].assigned = true;
     }
+    // What has been said to be missing is not said again of a problem.
+    report.declare(report.missing);
+    domain.requirements = report.declared.requirements();
     (domain.preferences, domain.uses) = (report.preferences, report.uses);
     (domain.axioms, domain.actions) = (axioms, actions);
     domain

@@ -506,7 +506,8 @@ impl<'a> Effects<'_, '_, '_, 'a> {
 
     /// Warns of atoms that a group both adds and deletes.
     fn contradictions(&mut self, literals: &[Literal]) {
-        if literals.iter().all(|literal| literal.positive)
+        if self.bindings.doubled
+            || literals.iter().all(|literal| literal.positive)
             || !literals.iter().any(|literal| literal.positive)
         {
             return;

@@ -72,19 +72,23 @@ fn close(types: &mut [Type], report: &mut Report<'_>) {
         }
     }
     for (number, component) in components.iter().enumerate() {
-        for &node in component {
-            let id = TypeId(node.index() as u32);
-            types[id.index()].parents.retain(|parent| component_of[parent.index()] != number);
-            if types[id.index()].parents.is_empty() && id != OBJECT {
-                types[id.index()].parents.push(OBJECT);
+        // The types of a cycle are the same, so far as anybody can tell, and so have all the same above them.
+        let members = component.iter().map(|node| TypeId(node.index() as u32));
+        let mut ancestors: Vec<TypeId> = members.clone().chain([OBJECT]).collect();
+        for id in members.clone() {
+            let of = &mut types[id.index()];
+            of.parents.retain(|parent| component_of[parent.index()] != number);
+            if of.parents.is_empty() && id != OBJECT {
+                of.parents.push(OBJECT);
             }
-            let mut ancestors = vec![id, OBJECT];
-            for parent in &types[id.index()].parents {
+            for parent in types[id.index()].parents.clone() {
                 ancestors.extend_from_slice(&types[parent.index()].ancestors);
             }
-            ancestors.sort_unstable();
-            ancestors.dedup();
-            types[id.index()].ancestors = ancestors;
+        }
+        ancestors.sort_unstable();
+        ancestors.dedup();
+        for id in members {
+            types[id.index()].ancestors.clone_from(&ancestors);
         }
     }
 }

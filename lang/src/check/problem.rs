@@ -212,6 +212,9 @@ fn read_metric<'a>(
 
 /// Warns of functions whose values a plan depends on, and that never have one.
 fn uninitialised(domain: &Domain, problem: &Problem, report: &mut Report<'_>) {
+    if report.strange {
+        return;
+    }
     let mut valued = vec![false; domain.functions.len()];
     problem.values.iter().for_each(|value| valued[value.function.index()] = true);
     let here = std::mem::take(&mut report.read);
@@ -267,6 +270,7 @@ impl<'a> State<'_, '_, '_, 'a> {
                     let arguments = init.arguments(function);
                     self.report.next(Role::Initial);
                     let Some(id) = scope::function(function.name, self.world, self.report) else {
+                        self.report.strange = true;
                         continue;
                     };
                     let arguments =

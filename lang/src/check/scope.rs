@@ -17,6 +17,7 @@ use crate::source::Span;
 use crate::symbol::{Namespace, Symbol};
 
 /// The variables of an action, an axiom or a goal while it is checked.
+#[expect(clippy::struct_excessive_bools, reason = "each is a question of its own about the place")]
 pub(super) struct Bindings<'a> {
     pub(super) scope: Scope,
     visible: Index<'a>,
@@ -24,6 +25,8 @@ pub(super) struct Bindings<'a> {
     pub(super) used: Vec<bool>,
     /// Whether something was used that is not bound, or could not be read, so that nothing can be said about what is unused.
     pub(super) unsure: bool,
+    /// Whether a name is bound twice in one list, so that another name that was meant is not bound.
+    pub(super) doubled: bool,
     /// Whose variables these are: "action `drive`".
     pub(super) owner: String,
     /// Whether `?duration` stands for a number here.
@@ -45,6 +48,7 @@ impl<'a> Bindings<'a> {
             visible: Index::default(),
             used: Vec::new(),
             unsure: false,
+            doubled: false,
             owner,
             durative: false,
             continuous: false,
@@ -78,7 +82,7 @@ impl<'a> Bindings<'a> {
                         spelling.span,
                         earlier,
                     ));
-                    self.unsure = true;
+                    (self.unsure, self.doubled) = (true, true);
                 } else {
                     if let Some(outer) = before {
                         // Being hidden explains why it is not used.
@@ -136,7 +140,7 @@ impl<'a> Bindings<'a> {
         self.unsure = true;
         report.lost(spelling, Namespace::Variable);
         let key = format!("{} in {}", spelling.text, self.owner);
-        if report.first(&unknown_variable::RULE, &key) {
+        if !self.doubled && report.first(&unknown_variable::RULE, &key) {
             let near = report.nearest(bare(spelling.text), &self.visible);
             let near = near.map(|near| format!("?{near}"));
             let variables = self.scope.variables.iter().take(SHOWN);

@@ -88,6 +88,7 @@ mod tests {
     fn types_are_said_in_the_domain_only() {
         check(&[
             "(define (domain d)
+  (:requirements :strips)
   (:types cup)
 ;         ^^^ W0302: a type needs the requirement `:typing`, which is not declared
   (:predicates (clean ?c - cup))
@@ -98,5 +99,14 @@ mod tests {
   (:goal (clean mug)))
 ",
         ]);
+    }
+
+    #[test]
+    fn a_domain_that_declares_nothing_is_asked_nothing() {
+        check(&["(define (domain d)
+  (:types cup)
+  (:predicates (clean ?c - cup))
+  (:action wash :parameters (?c - cup) :precondition (not (clean ?c)) :effect (clean ?c)))
+"]);
     }
 }

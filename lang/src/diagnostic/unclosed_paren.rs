@@ -1,6 +1,6 @@
 #![doc = include_str!("unclosed_paren.md")]
 
-use super::{Diagnostic, Rule, Severity};
+use super::{Diagnostic, Label, Rule, Severity};
 use crate::source::Span;
 
 /// The kind `unclosed-paren`.
@@ -52,6 +52,16 @@ pub fn inside(
         diagnostic = diagnostic.label(span, format!("`{word}` cannot stand inside of it"));
     }
     diagnostic.fix(format!("insert `{missing}`"), place, missing).safely()
+}
+
+/// Adds to a message about a `)` that is missing that the one at `span` is too many: it stands in the wrong place.
+pub fn instead(diagnostic: &mut Diagnostic, span: Span) {
+    let label = Label { span, text: "and here is one too many".to_owned() };
+    diagnostic.secondary.push(label);
+    if let Some(fix) = diagnostic.fixes.first_mut() {
+        fix.title.push_str(", and remove the one that is too many");
+        fix.edits.push((span, String::new()));
+    }
 }
 
 /// A `(` is one too many.
@@ -134,6 +144,119 @@ mod tests {
         check(&["  (define (domain d)
 ; ^ E0001: unexpected end of file: this `(` is never closed
   (:predicates (p))
+"]);
+    }
+
+    #[test]
+    fn a_field_is_not_part_of_a_formula() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:predicates (clean) (lit))
+  (:action wash
+    :parameters ()
+    :precondition (and (not (clean)) (lit)
+;                 ^ E0001: this `(` is never closed
+    :effect (clean))
+  (:action light
+    :parameters (
+;               ^ E0001: this `(` is never closed
+    :precondition (not (lit))
+    :effect (lit)))
+"]);
+    }
+
+    #[test]
+    fn indentation_shows_which_list_was_meant() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:predicates (clean) (lit) (wet))
+  (:action wash
+    :parameters ()
+    :precondition (and
+      (or (clean)
+;     ^ E0001: this `(` is never closed
+        (wet)
+      (lit))
+    :effect (and
+      (forall (?x)
+;     ^ E0001: this `(` is never closed
+        (when (lit)
+          (clean))
+      (wet)))
+)
+"]);
+    }
+
+    #[test]
+    fn tabs_and_capitals() {
+        check(&["(DEFINE (DOMAIN D)
+\t(:REQUIREMENTS :ADL)
+\t(:PREDICATES (CLEAN) (LIT)
+;^ E0001: this `(` is never closed
+\t(:ACTION WASH
+\t\t:PARAMETERS ()
+\t\t:PRECONDITION (AND (LIT)
+;               ^ E0001: this `(` is never closed
+\t\t:EFFECT (CLEAN))
+)
+"]);
+    }
+
+    #[test]
+    fn where_all_is_on_one_line_the_words_decide() {
+        check(&["(define (domain d) (:requirements :adl) (:predicates (p ?x) (q)) (:action a :parameters (?x) :precondition (and (not (p ?x) (q)) :effect (q)))
+;                                                                                                               ^ E0001: this `(` is never closed
+"]);
+    }
+
+    #[test]
+    fn a_misspelt_section_starts_one_too() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:predicates (clean) (lit))
+  (:action wash
+; ^ E0001: this `(` is never closed
+    :effect (clean)
+  (:acton light
+;  ^^^^^^ E0004: unknown domain section `:acton`
+    :effect (lit)))
+"]);
+    }
+
+    #[test]
+    fn one_that_opens_nothing_is_dropped() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:predicates (clean) ((lit))
+;                       ^ E0001: this `(` is never closed
+  ((:action wash
+; ^ E0001: this `(` is never closed
+    :precondition ((and (lit))
+;                  ^ E0001: this `(` is never closed
+    :effect (clean)))
+"]);
+    }
+
+    #[test]
+    fn one_that_stands_in_the_wrong_place_is_one_mistake() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:predicates (clean) (lit))
+  (:action wash
+    :precondition (and (lit)
+;                 ^ E0001: this `(` is never closed
+    :effect (clean)))
+  (:action light
+    :effect (lit)))
+"]);
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:predicates (clean) (lit))
+  (:action wash
+; ^ E0001: this `(` is never closed
+    :effect (clean)
+  (:action light
+    :effect (lit))))
 "]);
     }
 }

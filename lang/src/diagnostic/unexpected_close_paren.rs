@@ -1,6 +1,6 @@
 #![doc = include_str!("unexpected_close_paren.md")]
 
-use super::{Diagnostic, Rule, Severity};
+use super::{Diagnostic, Label, Rule, Severity};
 use crate::source::Span;
 
 /// The kind `unexpected-close-paren`.
@@ -39,6 +39,17 @@ fn stray(span: Span, label: &str) -> Diagnostic {
         .safely()
 }
 
+/// Adds to a message about a `)` that is too many that one is missing after `span`: it stands in the wrong place.
+pub fn instead(diagnostic: &mut Diagnostic, span: Span) {
+    let label = Label { span, text: "after this one is missing".to_owned() };
+    diagnostic.secondary.push(label);
+    diagnostic.help = Some("move it".to_owned());
+    if let Some(fix) = diagnostic.fixes.first_mut() {
+        "move this `)`".clone_into(&mut fix.title);
+        fix.edits.push((Span { start: span.end, ..span }, ")".to_owned()));
+    }
+}
+
 /// A later `)` has no partner, because a `(` is missing before `word`.
 pub fn missing_open(word: &str, span: Span) -> Diagnostic {
     let place = Span { end: span.start, ..span };
@@ -66,6 +77,86 @@ mod tests {
         check(&["(define (domain d)
   (:predicates (p)))))
 ;                   ^ E0002: this `)` has no matching `(`
+"]);
+    }
+
+    #[test]
+    fn one_that_ends_an_action_too_early_is_dropped() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:predicates (p) (q))
+  (:action a
+    :parameters ()
+    :precondition (and (p)) (q))
+;                         ^ E0002: this `)` has no matching `(`
+    :effect (p))
+  (:action b
+    :parameters ())
+;                 ^ E0002: this `)` has no matching `(`
+    :effect (q))
+)
+"]);
+    }
+
+    #[test]
+    fn indentation_shows_which_one_was_meant() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:predicates (p) (q))
+  (:action a
+    :parameters ()
+    :effect (and
+      (p)
+      (q))
+;        ^ E0002: this `)` has no matching `(`
+    )
+  )
+  (:action b
+    :effect (and
+      (p)
+    )
+  )
+  )
+; ^ E0002: this `)` has no matching `(`
+)
+"]);
+    }
+
+    #[test]
+    fn one_that_stands_in_the_wrong_place_is_one_mistake() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:predicates (p))
+  (:action a
+    :parameters ()
+    :effect (p)))
+;               ^ E0002: this `)` has no matching `(`
+  (:action b
+    :effect (p))
+"]);
+    }
+
+    #[test]
+    fn where_an_open_one_is_missing() {
+        check(&["(define (domain d)
+  (:requirements :adl)
+  (:predicates p ?x ?y) (q))
+;              ^ E0002: a `(` is missing before `p`
+  (:action a
+    :parameters ?x ?y)
+;               ^^ E0002: a `(` is missing before `?x`
+    :effect (p ?x ?y))
+  (:action b
+    :precondition and (q) (not (q)))
+;                 ^^^ E0002: a `(` is missing before `and`
+    :effect (q))
+  (:action c
+    :effect (not q)))
+;                ^ E0002: a `(` is missing before `q`
+  :action d
+; ^^^^^^^ E0002: a `(` is missing before `:action`
+    :effect (q))
+)
 "]);
     }
 }

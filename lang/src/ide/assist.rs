@@ -70,14 +70,6 @@ fn addition(workspace: &Workspace, id: SourceId, one: &Diagnostic) -> Option<(St
     let name = workspace.sources().text(one.primary.span);
     let at = one.primary.span.start;
     match one.name {
-        "missing-requirement" if one.fixes.is_empty() => {
-            let flag = one.help.as_ref()?.split('`').nth(1)?;
-            let title = format!("add `{flag}` to `:requirements`");
-            let own = outline::sections(&place.tree);
-            let own = own.iter().any(|section| section.is(&[":requirements"]));
-            let home = if own { id } else { workspace.home(id)? };
-            Some((title, insert(workspace, home, ":requirements", flag)?))
-        }
         "unknown-predicate" => {
             let declared = format!("({name}{})", place.parameters(at));
             let title = format!("declare the predicate `{declared}`");
@@ -94,9 +86,10 @@ fn addition(workspace: &Workspace, id: SourceId, one: &Diagnostic) -> Option<(St
             Some((title, insert(workspace, workspace.home(id)?, ":types", name)?))
         }
         "unknown-object" => {
-            let (keyword, what) = match workspace.is_problem(id) {
-                true => (":objects", "object"),
-                false => (":constants", "constant"),
+            let (keyword, what) = if workspace.is_problem(id) {
+                (":objects", "object")
+            } else {
+                (":constants", "constant")
             };
             let of = place.expected(at);
             let title = match &of {
@@ -104,12 +97,12 @@ fn addition(workspace: &Workspace, id: SourceId, one: &Diagnostic) -> Option<(St
                 None => format!("declare the {what} `{name}`"),
             };
             let sections = outline::sections(&place.tree);
-            let edit = match sections.iter().find(|section| section.is(&[keyword])) {
-                Some(section) => typed(&place.tree, section.node, 1, name, of.as_deref()),
-                None => {
-                    let text = of.map_or(name.to_owned(), |of| format!("{name} - {of}"));
-                    insert(workspace, id, keyword, &text)?
-                }
+            let edit = if let Some(section) = sections.iter().find(|section| section.is(&[keyword]))
+            {
+                typed(&place.tree, section.node, 1, name, of.as_deref())
+            } else {
+                let text = of.map_or(name.to_owned(), |of| format!("{name} - {of}"));
+                insert(workspace, id, keyword, &text)?
             };
             Some((title, edit))
         }
@@ -278,4 +271,154 @@ fn silence(workspace: &Workspace, one: &Diagnostic) -> Option<Edit> {
     });
     let span = Span::new(at.source, end as u32, end as u32);
     (!commented).then(|| (span, format!(" ; caveat: allow({})", one.name)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{fix_all, remedies};
+    use crate::ide::fixture::{DOMAIN, PROBLEM, edited, workspace};
+    use crate::source::SourceId;
+
+    /// What is offered at the cursor: the titles, and the texts after each.
+    #[track_caller]
+    fn offered(texts: &[&str]) -> Vec<(String, Vec<String>)> {
+        let (workspace, id, offset) = workspace(texts);
+        let found = remedies(&workspace, id, offset, offset).into_iter();
+        found.map(|one| (one.title, edited(&workspace, &one.edits))).collect()
+    }
+
+    /// That something is offered, and what it makes of a text.
+    #[track_caller]
+    fn makes(texts: &[&str], title: &str, text: usize, part: &str) {
+        let offered = offered(texts);
+        let titles: Vec<&str> = offered.iter().map(|(title, _)| title.as_str()).collect();
+        let (_, made) =
+            offered.iter().find(|(one, _)| one == title).unwrap_or_else(|| panic!("{titles:?}"));
+        assert!(made[text].contains(part), "{}", made[text]);
+    }
+
+    #[test]
+    fn what_the_checker_proposes() {
+        let text = DOMAIN.replace("(clean ?d) (inc", "(cl$0aen ?d) (inc");
+        makes(&[&text], "replace with `clean`", 0, "(clean ?d) (inc");
+    }
+
+    #[test]
+    fn a_predicate_with_its_types() {
+        let text = DOMAIN.replace("(clean ?d) (inc", "(polished$0 ?d sink) (inc");
+        makes(
+            &[&text],
+            "declare the predicate `(polished ?d - dish ?x - place)`",
+            0,
+            "    (clean ?d - dish)\n    (polished ?d - dish ?x - place))",
+        );
+        let text = PROBLEM.replace("(clean mug)", "(broken$0 mug)");
+        makes(
+            &[DOMAIN, &text],
+            "declare the predicate `(broken ?x - cup)`",
+            0,
+            "    (clean ?d - dish)\n    (broken ?x - cup))",
+        );
+    }
+
+    #[test]
+    fn a_section_is_made_where_there_is_none() {
+        let text = "(define (domain d)\n  (:requirements :strips)\n  (:action a :effect (p$0)))";
+        makes(
+            &[text],
+            "declare the predicate `(p)`",
+            0,
+            "(:requirements :strips)\n  (:predicates (p))\n  (:action",
+        );
+    }
+
+    #[test]
+    fn functions_types_and_objects() {
+        let text = DOMAIN.replace("(effort ?d))))", "(toil$0 ?d))))");
+        makes(
+            &[&text],
+            "declare the function `(toil ?d - dish)`",
+            0,
+            "(effort ?d - dish) - number (toil ?d - dish) - number)",
+        );
+        let text = DOMAIN.replace("(?d - dish ?from", "(?d - bottle$0 ?from");
+        makes(&[&text], "declare the type `bottle`", 0, "dish place bottle)");
+        let text = PROBLEM
+            .replace("(at mug shelf)", "(at mug$0 cupboard)")
+            .replace("mug$0 cup", "mug cup$0");
+        makes(
+            &[DOMAIN, &text],
+            "declare the object `cupboard - place`",
+            1,
+            "(:objects mug - cup shelf - place cupboard - place)",
+        );
+        let text = DOMAIN.replace("(at ?d sink)", "(at ?d table$0)");
+        makes(
+            &[&text],
+            "declare the constant `table - place`",
+            0,
+            "(:constants sink - place table - place)",
+        );
+    }
+
+    #[test]
+    fn a_type_goes_before_names_without_one() {
+        let text = PROBLEM
+            .replace("mug - cup shelf - place", "mug shelf")
+            .replace("(at mug shelf)", "(at mug hook$0)");
+        makes(
+            &[DOMAIN, &text],
+            "declare the object `hook - place`",
+            1,
+            "(:objects hook - place mug shelf)",
+        );
+    }
+
+    #[test]
+    fn a_parameter() {
+        let text = DOMAIN.replace("(at ?d sink)", "(at ?d ?where$0)");
+        makes(
+            &[&text],
+            "add `?where` to the parameters of action `wash`",
+            0,
+            ":parameters (?d - dish ?where - place)",
+        );
+        let text =
+            "(define (domain d) (:predicates (p ?x)) (:action a :parameters () :effect (p ?y$0)))";
+        makes(&[text], "add `?y` to the parameters of action `a`", 0, ":parameters (?y) :effect");
+    }
+
+    #[test]
+    fn a_requirement_and_silence() {
+        let text = DOMAIN.replace("(at ?d sink)", "(n$0ot (clean ?d))");
+        makes(
+            &[&text],
+            "declare `:negative-preconditions`",
+            0,
+            "(:requirements :typing :action-costs :negative-preconditions)",
+        );
+        makes(
+            &[&text],
+            "silence with `; caveat: allow(missing-requirement)`",
+            0,
+            "(not (clean ?d)) ; caveat: allow(missing-requirement)\n",
+        );
+        // Where there is a comment already, another one would not be seen.
+        let text = text.replace("(clean ?d))\n", "(clean ?d)) ; so\n");
+        assert!(offered(&[&text]).iter().all(|(title, _)| !title.starts_with("silence")));
+    }
+
+    #[test]
+    fn all_that_is_safe() {
+        let text = "(define (domain d) (:predicate (p)) (:action a :paramters () :effect (p)))";
+        let (workspace, ..) = workspace(&[text]);
+        let edit = fix_all(&workspace, SourceId(1)).expect("there is something to mend");
+        let mended = &edited(&workspace, &[edit])[0];
+        assert_eq!(
+            mended,
+            "(define (domain d) (:predicates (p)) (:action a :parameters () :effect (p)))"
+        );
+        let (workspace, ..) = super::super::fixture::workspace(&[mended]);
+        assert_eq!(fix_all(&workspace, SourceId(1)), None);
+    }
 }

@@ -58,3 +58,52 @@ fn content(comment: &str) -> Option<String> {
     let said = words.chars().any(char::is_alphanumeric);
     (said && !marked && !words.trim_start().starts_with("caveat:")).then(|| words.to_owned())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::about;
+    use crate::ide::fixture::workspace;
+
+    /// What is said about the name at the cursor.
+    #[track_caller]
+    fn said(text: &str) -> String {
+        let (workspace, id, offset) = workspace(&[text]);
+        let at = workspace.at(id, offset).expect("a name stands here");
+        about(&workspace, &workspace.tree(id), at.span)
+    }
+
+    #[test]
+    fn lines_above_and_the_end_of_the_line() {
+        let text = "(define (domain d)
+  ; not about it
+
+  ;;; first
+  ; second
+  ;----------
+  (:action a$0 ; third
+    :effect (p)) ; not about it
+)";
+        assert_eq!(said(text), "first\nsecond\nthird");
+    }
+
+    #[test]
+    fn of_several_on_a_line_the_last_has_the_comment() {
+        let text = "(define (domain d) (:predicates\n  (p) (q) ; about q\n  (r)))";
+        assert_eq!(said(&text.replace("(p", "(p$0")), "");
+        assert_eq!(said(&text.replace("(q", "(q$0")), "about q");
+        assert_eq!(said(&text.replace("(r", "(r$0")), "");
+    }
+
+    #[test]
+    fn what_speaks_to_programs_is_left_out() {
+        let text = "(define (domain d)\n;;( fold\n; caveat: allow(unused-parameter)\n;@ (causal)\n(:action a$0))";
+        assert_eq!(said(text), "");
+    }
+
+    #[test]
+    fn names_in_lists() {
+        let text = "(define (domain d) (:types\n  ; things\n  a b - c ; both\n ))";
+        assert_eq!(said(&text.replace(" a b", " a$0 b")), "things\nboth");
+        assert_eq!(said(&text.replace(" a b", " a b$0")), "both");
+    }
+}

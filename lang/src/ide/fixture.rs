@@ -14,7 +14,7 @@ pub(super) fn workspace(texts: &[&str]) -> (Workspace, SourceId, u32) {
     let mut cursor = None;
     let (mut domain, mut problem) = (None, None);
     for (at, text) in texts.iter().enumerate() {
-        let plan = !text.contains("(define");
+        let plan = problem.is_some() && !text.contains("(define");
         let id = workspace.add(format!("{at}.pddl"), text.replacen(CURSOR, "", 1), plan);
         if let Some(offset) = text.find(CURSOR) {
             cursor = Some((id, offset as u32));

@@ -3,8 +3,7 @@
 use std::fmt::Write;
 
 use super::outline::{self, Section};
-use super::{Target, Workspace, comment, words};
-use crate::ast::ActionKind;
+use super::{Target, Workspace, comment, glossary, words};
 use crate::model::{Doing, Domain, Signature, TypeId, Variable};
 use crate::source::{SourceId, Span};
 use crate::symbol::{Namespace, Occurrence, Role, Symbol};
@@ -12,9 +11,23 @@ use crate::tree::Tree;
 
 /// What there is to say of the name at `offset`, and where that name stands.
 pub fn hover(workspace: &Workspace, id: SourceId, offset: u32) -> Option<(Span, String)> {
-    let at = workspace.at(id, offset)?;
+    let Some(at) = workspace.at(id, offset) else { return keyword(workspace, id, offset) };
     let target = workspace.target(id, at.symbol)?;
     Some((at.span, describe(workspace, id, target)?))
+}
+
+/// What a word of the language means.
+fn keyword(workspace: &Workspace, id: SourceId, offset: u32) -> Option<(Span, String)> {
+    let tree = workspace.tree(id);
+    let path = super::path(&tree, offset);
+    let [.., list, word] = path.as_slice() else { return None };
+    let spelling = tree.slice(*word);
+    let heads = tree.children(*list).next() == Some(*word);
+    if tree.is_list(*word) || !heads && !spelling.starts_with(':') {
+        return None;
+    }
+    let meaning = glossary::meaning(spelling)?;
+    Some((tree.span(*word), format!("`{spelling}`: {meaning}\n")))
 }
 
 /// The declaration, what its author says of it, and what is done with it.
@@ -23,7 +36,10 @@ pub(super) fn describe(workspace: &Workspace, id: SourceId, target: Target) -> O
     let tree = workspace.tree(target.home);
     let mut text = format!("```pddl\n{}\n```\n", declaration(workspace, &tree, domain, target)?);
     let declared = workspace.declarations(target);
-    let said = declared.first().map(|&span| comment::about(workspace, &tree, span));
+    // A comment speaks of what a line declares, and not of its parameters.
+    let declares = target.symbol.namespace() != Namespace::Variable;
+    let declared = declared.first().filter(|_| declares);
+    let said = declared.map(|&span| comment::about(workspace, &tree, span));
     if let Some(said) = said.filter(|said| !said.is_empty()) {
         // Two blanks at the end of a line keep the author's lines in Markdown.
         let _ = writeln!(text, "\n{}\n", said.replace('\n', "  \n"));
@@ -107,10 +123,7 @@ pub(super) fn signature_at(domain: &Domain, declared: u32) -> Option<&Signature>
 fn signature(domain: &Domain, name: &str, declared: u32) -> Option<String> {
     let found = signature_at(domain, declared)?;
     let keyword = match found.doing {
-        Doing::Action(ActionKind::Instant) => ":action",
-        Doing::Action(ActionKind::Durative) => ":durative-action",
-        Doing::Action(ActionKind::Process) => ":process",
-        Doing::Action(ActionKind::Event) => ":event",
+        Doing::Action(kind) => kind.keyword(),
         Doing::Task => ":task",
     };
     let shown: Vec<String> =
@@ -286,5 +299,149 @@ pub(super) fn parameters(domain: &Domain, symbol: Symbol) -> Option<(&str, &[Var
             Some((&found.name.text, &found.parameters))
         }
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::hover;
+    use crate::ide::fixture::{DOMAIN, PROBLEM, workspace};
+
+    #[track_caller]
+    fn shown(texts: &[&str]) -> Option<String> {
+        let (workspace, id, offset) = workspace(texts);
+        hover(&workspace, id, offset).map(|(_, text)| text)
+    }
+
+    /// With the cursor at the end of the first `place` in the domain.
+    #[track_caller]
+    fn domain(place: &str) -> String {
+        shown(&[&DOMAIN.replacen(place, &format!("{place}$0"), 1)])
+            .expect("there is something to say")
+    }
+
+    #[track_caller]
+    fn problem(place: &str) -> String {
+        let text = PROBLEM.replacen(place, &format!("{place}$0"), 1);
+        shown(&[DOMAIN, &text]).expect("there is something to say")
+    }
+
+    #[test]
+    fn predicates_with_their_comment_and_their_users() {
+        assert_eq!(
+            domain("(at"),
+            "```pddl
+(at ?d - dish ?p - place)
+```
+
+where a dish stands
+
+- read by `wash`, `move`
+- added by `move`
+- deleted by `move`
+"
+        );
+        assert_eq!(
+            problem("(clean"),
+            "```pddl
+(clean ?d - dish)
+```
+
+nothing sticks to it
+
+- added by `wash`
+- 0 initial entries here
+- named in the goal or the metric
+"
+        );
+    }
+
+    #[test]
+    fn functions() {
+        assert_eq!(
+            problem("(effort"),
+            "```pddl
+(effort ?d - dish) - number
+```
+- read by `wash`
+- never changed by an action
+- 1 initial entry here
+"
+        );
+        assert_eq!(
+            domain("(increase (total-cost"),
+            "```pddl\n(total-cost) - number\n```\n- written by `wash`\n"
+        );
+    }
+
+    #[test]
+    fn types_with_those_around_them() {
+        assert_eq!(
+            problem("mug - cup"),
+            "```pddl\ncup - dish\n```\n- above it: `dish`\n- 1 object: `mug`\n"
+        );
+        assert_eq!(
+            domain("?d - dish"),
+            "```pddl\ndish - object\n```\n- below it: `cup`, `plate`\n"
+        );
+    }
+
+    #[test]
+    fn objects_variables_and_actions() {
+        assert_eq!(problem("(at mug"), "```pddl\nmug - cup ; object\n```\n");
+        assert_eq!(domain("?d sink"), "```pddl\nsink - place ; constant\n```\n");
+        assert_eq!(
+            domain("(at ?d ?from"),
+            "```pddl\n?from - place ; parameter of action `move`\n```\n"
+        );
+        assert_eq!(domain("(at ?d"), "```pddl\n?d - dish ; parameter of `at`\n```\n");
+        assert_eq!(
+            domain(":action wash"),
+            "```pddl
+(:action wash
+  :parameters (?d - dish))
+```
+
+Water does it.
+
+- reads `at`, `effort`
+- adds `clean`
+- writes `total-cost`
+"
+        );
+    }
+
+    #[test]
+    fn what_quantifiers_bind() {
+        let text = DOMAIN.replace("(at ?d sink)", "(forall (?e - cup) (at ?$0e sink))");
+        assert_eq!(
+            shown(&[&text]).as_deref(),
+            Some("```pddl\n?e - cup ; bound by `forall` in action `wash`\n```\n")
+        );
+    }
+
+    #[test]
+    fn words_of_the_language() {
+        assert_eq!(domain(":typing"), "`:typing`: types\n");
+        assert_eq!(domain("(and"), "`and`: all of them hold\n");
+        assert_eq!(domain(":precondition"), "`:precondition`: what must hold before\n");
+    }
+
+    #[test]
+    fn nothing_where_nothing_is_known() {
+        assert_eq!(
+            shown(&[&DOMAIN.replace("(clean ?d) (increase", "(cle$0en ?d) (increase")]),
+            None
+        );
+        assert_eq!(shown(&[&DOMAIN.replace("; Water", "; W$0ater")]), None);
+        assert_eq!(shown(&["$0"]), None);
+    }
+
+    #[test]
+    fn plans_know_actions_and_objects() {
+        let text = shown(&[DOMAIN, PROBLEM, "(mo$0ve mug shelf sink)"]).expect("it is an action");
+        assert!(text.starts_with("```pddl\n(:action move\n"), "{text}");
+        let text = shown(&[DOMAIN, PROBLEM, "(move mug she$0lf sink)"]).expect("it is an object");
+        assert_eq!(text, "```pddl\nshelf - place ; object\n```\n");
     }
 }

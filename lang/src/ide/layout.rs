@@ -90,3 +90,39 @@ pub fn difference(id: SourceId, old: &str, new: &str) -> Option<Edit> {
     let end = old.len() - shared;
     Some((Span::new(id, start as u32, end as u32), wanted[..wanted.len() - shared].to_owned()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{difference, format};
+    use crate::ide::fixture::{edited, workspace};
+    use crate::source::SourceId;
+
+    #[test]
+    fn only_blanks_change() {
+        let text = "(define (domain d)   ; one  \r\n(:predicates (p)\n\n\n(q) ))";
+        let (workspace, ..) = workspace(&[text]);
+        let edits = format(&workspace, SourceId(1)).expect("it can be laid out");
+        assert!(edits.len() > 3);
+        assert!(edits.iter().all(|(span, new)| {
+            workspace.sources().text(*span).trim().is_empty() && new.trim().is_empty()
+        }));
+        assert_eq!(Some(&edited(&workspace, &edits)[0]), crate::format::format(text).as_ref());
+    }
+
+    #[test]
+    fn nothing_to_do_and_nothing_that_can_be_done() {
+        let (workspace, ..) = workspace(&["(define (domain d))\n", "(define (domain d)"]);
+        assert_eq!(format(&workspace, SourceId(1)), Some(Vec::new()));
+        assert_eq!(format(&workspace, SourceId(2)), None);
+    }
+
+    #[test]
+    fn what_differs_is_cut_between_characters() {
+        let id = SourceId(0);
+        let (span, new) = difference(id, "aéz", "aèz").expect("they differ");
+        assert_eq!((span.start, span.end, new.as_str()), (1, 3, "è"));
+        assert_eq!(difference(id, "same", "same"), None);
+        let (span, new) = difference(id, "aa", "aaa").expect("they differ");
+        assert_eq!((span.start, span.end, new.as_str()), (2, 2, "a"));
+    }
+}

@@ -56,12 +56,11 @@ fn in_plan(mut failure: Diagnostic, id: SourceId, end: Span) -> Diagnostic {
     if failure.primary.span.source == id {
         return failure;
     }
-    match failure.secondary.iter().position(|label| label.span.source == id) {
-        Some(step) => std::mem::swap(&mut failure.primary, &mut failure.secondary[step]),
-        None => {
-            let last = Label { span: end, text: "after the last step".to_owned() };
-            failure.secondary.insert(0, std::mem::replace(&mut failure.primary, last));
-        }
+    if let Some(step) = failure.secondary.iter().position(|label| label.span.source == id) {
+        std::mem::swap(&mut failure.primary, &mut failure.secondary[step]);
+    } else {
+        let last = Label { span: end, text: "after the last step".to_owned() };
+        failure.secondary.insert(0, std::mem::replace(&mut failure.primary, last));
     }
     failure
 }
@@ -98,4 +97,44 @@ fn object(tree: &Tree<'_>, word: NodeId, problem: &Problem) -> Symbol {
     found.map_or(Symbol::Unknown(Namespace::Object), |at| {
         Symbol::Known(Namespace::Object, at as u32)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::ide::fixture::{DOMAIN, PROBLEM, workspace};
+    use crate::source::SourceId;
+
+    /// Each message about a plan, with what is marked.
+    #[track_caller]
+    fn said(domain: &str, plan: &str) -> Vec<String> {
+        let (workspace, ..) = workspace(&[domain, PROBLEM, plan]);
+        let found = workspace.analysis(SourceId(3)).diagnostics.list.iter();
+        found
+            .map(|one| {
+                assert_eq!(one.primary.span.source, SourceId(3), "{one:?}");
+                format!("{} {}", one.code, workspace.sources().text(one.primary.span))
+            })
+            .collect()
+    }
+
+    #[test]
+    fn valid_plans_are_silent() {
+        assert_eq!(said(DOMAIN, "; a plan\n(move mug shelf sink)\n(wash mug)\n"), [""; 0]);
+    }
+
+    #[test]
+    fn the_step_that_fails_is_marked() {
+        assert_eq!(said(DOMAIN, "(wash mug)\n"), ["E0720 (wash mug)"]);
+        assert_eq!(said(DOMAIN, "(move mug shelf sink)\n"), ["E0721 (move mug shelf sink)"]);
+        assert_eq!(said(DOMAIN, ""), ["E0721 "]);
+        assert_eq!(said(DOMAIN, "(wash jug)\n").len(), 1);
+    }
+
+    #[test]
+    fn nothing_is_said_on_files_with_mistakes() {
+        assert_eq!(
+            said(&DOMAIN.replace("(clean ?d) (inc", "(claen ?d) (inc"), "(wash mug)\n"),
+            [""; 0]
+        );
+    }
 }

@@ -163,3 +163,122 @@ pub(super) fn extent(tree: &Tree<'_>, declared: u32) -> Span {
         _ => tree.span(list),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{prepare_rename, rename};
+    use crate::ide::fixture::{DOMAIN, PROBLEM, edited, workspace};
+
+    /// The texts after the name at the cursor is renamed, or why it is not.
+    #[track_caller]
+    fn renamed(texts: &[&str], name: &str) -> Result<Vec<String>, String> {
+        let (workspace, id, offset) = workspace(texts);
+        let edits = rename(&workspace, id, offset, name).map_err(|refusal| refusal.0)?;
+        Ok(edited(&workspace, &edits))
+    }
+
+    /// With the cursor behind the first `place`.
+    #[track_caller]
+    fn domain(place: &str, name: &str) -> Result<Vec<String>, String> {
+        renamed(&[&DOMAIN.replacen(place, &format!("{place}$0"), 1), PROBLEM, PLAN], name)
+    }
+
+    const PLAN: &str = "(MOVE mug shelf sink)\n(wash mug)\n";
+
+    #[test]
+    fn predicates_everywhere() {
+        let texts = domain("(clean", "tidy").expect("it can be renamed");
+        assert_eq!(
+            texts,
+            [DOMAIN.replace("clean", "tidy"), PROBLEM.replace("clean", "tidy"), PLAN.to_owned()]
+        );
+    }
+
+    #[test]
+    fn other_kinds_of_names() {
+        let texts = domain(":action move", "carry").expect("it can be renamed");
+        assert_eq!(texts[0], DOMAIN.replace("action move", "action carry"));
+        assert_eq!(texts[2], "(carry mug shelf sink)\n(wash mug)\n");
+        let texts = domain("(:types cup", "mugs").expect("it can be renamed");
+        assert_eq!(texts[1], PROBLEM.replace("- cup", "- mugs"));
+        let texts = domain("constants sink", "basin").expect("it can be renamed");
+        assert_eq!(texts[0], DOMAIN.replace("sink", "basin"));
+        assert_eq!(texts[2], PLAN.replace("sink", "basin"));
+        let texts = domain("(domain kitchen", "galley").expect("it can be renamed");
+        assert_eq!(texts[1], PROBLEM.replace("kitchen", "galley"));
+        let texts = domain("(effort", "toil").expect("it can be renamed");
+        assert_eq!(texts[1], PROBLEM.replace("effort", "toil"));
+    }
+
+    #[test]
+    fn a_variable_keeps_its_mark_and_its_action() {
+        for name in ["?dish", "dish"] {
+            let texts = domain(":parameters (?d", name).expect("it can be renamed");
+            let (head, wash) = DOMAIN.split_at(DOMAIN.find("  ; Water").expect("it is there"));
+            let (wash, move_) = wash.split_at(wash.find("  (:action move").expect("it is there"));
+            assert_eq!(texts[0], format!("{head}{}{move_}", wash.replace("?d", "?dish")));
+        }
+    }
+
+    #[test]
+    fn an_object_in_a_problem_and_its_plan() {
+        let text = PROBLEM.replacen("(at mug", "(at m$0ug", 1);
+        let texts = renamed(&[DOMAIN, &text, PLAN], "jug").expect("it can be renamed");
+        assert_eq!(
+            texts,
+            [DOMAIN.to_owned(), PROBLEM.replace("mug", "jug"), PLAN.replace("mug", "jug")]
+        );
+    }
+
+    #[test]
+    fn what_is_taken_or_no_name_is_refused() {
+        let refused = |place, name| domain(place, name).expect_err("it cannot be renamed");
+        assert_eq!(
+            refused("(clean", "AT"),
+            "there is another predicate `AT` in 1.pddl".replace("1.", "0.")
+        );
+        assert_eq!(refused("(clean", "not"), "`not` is a word of the language");
+        assert_eq!(
+            refused(":parameters (?d - dish ?from", "to"),
+            "there is another variable `?to` here"
+        );
+        assert_eq!(refused("constants sink", "mug"), "there is another object `mug` in 1.pddl");
+        for name in ["", "a b", "(a", "?x", "ä", "12", ":x", "-"] {
+            assert!(refused("(clean", name).contains("is no name for a predicate"), "{name}");
+        }
+        assert_eq!(refused(") - number", "n"), "there is no name here that could be changed");
+        let text = PROBLEM.replacen("(at mug", "(at m$0ug", 1);
+        let refusal = renamed(&[DOMAIN, &text], "sink").expect_err("it is taken");
+        assert_eq!(refusal, "the domain has a constant `sink`");
+    }
+
+    #[test]
+    fn variables_of_one_name_do_not_meet() {
+        let text = "(define (domain d) (:predicates (p ?x ?y) (q ?z$0))
+  (:action a :parameters (?x) :precondition (and (forall (?y) (p ?x ?y)) (exists (?z) (p ?x ?z))) :effect (q ?x)))";
+        // The parameters of declarations and of sibling quantifiers are apart from one another.
+        assert!(renamed(&[text], "x").is_ok());
+        let text = text.replace("$0", "").replace("(?y) (p", "(?y$0) (p");
+        assert!(renamed(&[&text], "z").is_ok());
+        assert!(renamed(&[&text], "x").is_err());
+    }
+
+    #[test]
+    fn another_case_is_the_same_name() {
+        assert!(
+            domain("(clean", "Clean").expect("it can be renamed")[0].contains("(Clean ?d - dish)")
+        );
+    }
+
+    #[test]
+    fn what_can_be_renamed_is_said_before() {
+        let at = |text: &str| {
+            let (workspace, id, offset) = workspace(&[text]);
+            let span = prepare_rename(&workspace, id, offset);
+            span.map(|span| workspace.sources().text(span).to_owned()).map_err(|refusal| refusal.0)
+        };
+        assert_eq!(at(&DOMAIN.replace("(clean ?d)", "(cl$0ean ?d)")), Ok("clean".to_owned()));
+        let unknown = at(&DOMAIN.replace("(clean ?d) (", "(cl$0en ?d) ("));
+        assert_eq!(unknown, Err("the predicate `clen` is not declared".to_owned()));
+    }
+}

@@ -1,5 +1,7 @@
 //! Declared things go in; the text by which an editor shows them comes out.
 
+use std::fmt::Write;
+
 use crate::model::{Domain, TypeId, Variable};
 
 /// `block`, `(either a b)`, `object`.
@@ -43,7 +45,7 @@ pub(super) fn listed<'s>(names: impl IntoIterator<Item = &'s str>) -> String {
     let shown: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
     let mut text = shown.join(", ");
     if names.len() > SHOWN {
-        text.push_str(&format!(" and {} more", names.len() - SHOWN));
+        write!(text, " and {} more", names.len() - SHOWN).expect("a string takes all");
     }
     text
 }

@@ -47,11 +47,25 @@ impl<'a> Reader<'a, '_> {
         let mut groups = Vec::new();
         let mut pending: Vec<Name<'a>> = Vec::new();
         let mut items = items;
+        let mut nested = false;
+        let mut inner = Vec::new();
         while let Some(item) = items.next() {
             if self.tree.is_list(item) {
                 match self.head(item) {
                     Some(head) if head.is(":private") && names == Names::Words => {
                         private.push((head, item));
+                    }
+                    Some(head) if head.is_variable() && names == Names::Variables => {
+                        // `((?a - t) (?b - u))` is a list of variables with too many parentheses.
+                        if !std::mem::replace(&mut nested, true) {
+                            self.unexpected(names.describe(), item);
+                        }
+                        let content = self.tree.children(item);
+                        if !pending.is_empty() {
+                            let names = std::mem::take(&mut pending);
+                            groups.push(Group { names, types: None });
+                        }
+                        inner.push((groups.len(), content));
                     }
                     _ => self.unexpected(names.describe(), item),
                 }
@@ -80,6 +94,12 @@ impl<'a> Reader<'a, '_> {
         }
         if !pending.is_empty() {
             groups.push(Group { names: pending, types: None });
+        }
+        for (place, content) in inner.into_iter().rev() {
+            let words = content.filter(|&part| !self.tree.is_list(part));
+            let words: Vec<NodeId> = words.collect();
+            let read = self.groups(words.into_iter(), names, private);
+            groups.splice(place..place, read);
         }
         groups
     }

@@ -89,8 +89,10 @@ pub fn parse<'a>(source: SourceId, text: &'a str, diagnostics: &mut Diagnostics)
         nodes: Vec::with_capacity(tokens.len()),
         open: Vec::new(),
         floor: 0,
-        end: 0,
+        start: 0,
+        last: Span::new(source, 0, 0),
         dropped: None,
+        unpaired: Vec::new(),
         diagnostics,
     };
     let mut steps = repair::STEPS;
@@ -104,7 +106,7 @@ pub fn parse<'a>(source: SourceId, text: &'a str, diagnostics: &mut Diagnostics)
             Repair::default()
         };
         builder.start(section);
-        builder.floor = depth as usize;
+        (builder.floor, builder.start) = (depth as usize, section.start);
         builder.section(section.start..end, &repair);
     }
     builder.finish();
@@ -121,11 +123,27 @@ struct Builder<'a, 't, 'd> {
     open: Vec<u32>,
     /// How many lists stay open at the end of the section at hand.
     floor: usize,
-    /// Where the last parenthesis or word ends.
-    end: u32,
+    /// The token with which the section at hand starts.
+    start: u32,
+    /// The last parenthesis or word.
+    last: Span,
     /// The last parenthesis that was dropped, with the position of the message about it.
     dropped: Option<(u32, usize)>,
+    /// The `)` that were missing, and those that were too many, until one of the other kind turns up.
+    unpaired: Vec<Unpaired>,
     diagnostics: &'d mut Diagnostics,
+}
+
+/// A `)` that was missing or too many. With one of the other kind it may be a single one that stands in the wrong place.
+#[derive(Clone, Copy)]
+struct Unpaired {
+    missing: bool,
+    /// The token with which its section starts.
+    section: u32,
+    /// Whether all that is wrong with it is that the definition ends too early.
+    ends_definition: bool,
+    /// The position of the message about it.
+    message: usize,
 }
 
 impl Builder<'_, '_, '_> {
@@ -156,7 +174,7 @@ impl Builder<'_, '_, '_> {
             edits = &edits[count..];
             let token = self.tokens[at as usize];
             if !outline::is_trivia(token.kind) {
-                self.end = token.end;
+                self.last = Span::new(self.source, token.start, token.end);
             }
             // What is missing at the end of a section is closed where the next one starts.
             let goes_on = || after.0.iter().any(|token| !outline::is_trivia(token.kind));
@@ -228,16 +246,51 @@ impl Builder<'_, '_, '_> {
             }
             return;
         }
+        if token.kind == TokenKind::Close
+            && let Some(message) = self.pair(true, self.open.is_empty())
+        {
+            let message = &mut self.diagnostics.list[message];
+            unclosed_paren::instead(message, span);
+            return;
+        }
         let misplaced = misplaced.filter(|&word| word > at).map(|word| self.span(word));
         let misplaced = misplaced.map(|span| (span, self.slice(span)));
+        let ends_definition = self.open.len() == self.floor && !self.open.is_empty();
         let diagnostic = match token.kind {
             TokenKind::Open => unclosed_paren::superfluous(span),
             _ if self.open.is_empty() => unexpected_close_paren::nothing_open(span),
-            _ if self.open.len() == self.floor => unexpected_close_paren::closes_definition(span),
+            _ if ends_definition => unexpected_close_paren::closes_definition(span),
             _ => unexpected_close_paren::too_many(span, misplaced),
         };
-        self.dropped = Some((at, self.diagnostics.list.len()));
+        let message = self.diagnostics.list.len();
+        self.dropped = Some((at, message));
+        if token.kind == TokenKind::Close {
+            self.unpaired.push(Unpaired {
+                missing: false,
+                section: self.start,
+                ends_definition,
+                message,
+            });
+        }
         self.diagnostics.push(diagnostic);
+    }
+
+    /// The message about a `)` that was missing, or one that was too many, and that pairs with one of the other kind at hand.
+    ///
+    /// They are one mistake if they are of one section, or if the definition ends too early or too late because of them.
+    fn pair(&mut self, missing: bool, at_end: bool) -> Option<usize> {
+        let found = self.unpaired.iter().rposition(|one| {
+            let same_section = one.section == self.start;
+            one.missing == missing && (same_section || at_end && (missing || one.ends_definition))
+        })?;
+        Some(self.unpaired.remove(found).message)
+    }
+
+    /// Remembers that so many `)` were missing, of which the last message tells.
+    fn missing(&mut self, count: usize) {
+        let message = self.diagnostics.list.len() - 1;
+        let one = Unpaired { missing: true, section: self.start, ends_definition: false, message };
+        self.unpaired.extend(std::iter::repeat_n(one, count));
     }
 
     /// Closes the innermost lists after a token, in the middle of a section.
@@ -246,6 +299,12 @@ impl Builder<'_, '_, '_> {
         let Some(&innermost) = self.open.last() else { return };
         let after = self.span(after);
         let place = Span { start: after.end, ..after };
+        if count == 1
+            && let Some(message) = self.pair(false, false)
+        {
+            unexpected_close_paren::instead(&mut self.diagnostics.list[message], after);
+            return self.close_open(depth, place.end);
+        }
         let misplaced =
             misplaced.map(|word| self.span(word)).filter(|span| span.start >= after.end);
         let misplaced = misplaced.map(|span| (span, self.slice(span)));
@@ -256,6 +315,7 @@ impl Builder<'_, '_, '_> {
             misplaced,
             (place, self.open.len() - depth),
         ));
+        self.missing(self.open.len() - depth);
         self.close_open(depth, place.end);
     }
 
@@ -271,16 +331,23 @@ impl Builder<'_, '_, '_> {
             &self.heading(first),
             keyword,
             self.slice(keyword),
-            (Span::new(self.source, self.end, self.end), missing),
+            (Span { start: self.last.end, ..self.last }, missing),
         ));
-        self.close_open(depth, self.end);
+        self.missing(missing);
+        self.close_open(depth, self.last.end);
     }
 
     fn finish(&mut self) {
         if self.open.is_empty() {
             return;
         }
-        let end = self.end;
+        let end = self.last.end;
+        if self.open.len() == 1
+            && let Some(message) = self.pair(false, true)
+        {
+            unexpected_close_paren::instead(&mut self.diagnostics.list[message], self.last);
+            return self.close_open(0, end);
+        }
         // The innermost section says most; where there is none, the definition does.
         let anchor =
             usize::from(self.open.len() > 1 && self.heading(self.open[1]).starts_with(':'));

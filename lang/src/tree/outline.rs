@@ -164,16 +164,16 @@ impl<'t> Scan<'t> {
         self.sections.last_mut().expect("there is a section from the beginning")
     }
 
-    /// Whether `(define` starts a definition: it comes first, or says what it defines.
+    /// Whether `(define` starts a definition: it comes first, or nothing is open, or it goes on with `(domain` or `(problem`.
     fn defines(&self, keyword: usize) -> bool {
-        let Some(mut next) = self.after(keyword) else { return self.sections.len() == 1 };
-        if self.tokens[next].kind == TokenKind::Open {
-            next = self.after(next).unwrap_or(next);
+        if self.depth == 0 || self.base.is_none() {
+            return true;
         }
-        let title = self.slice(next);
-        self.base.is_none()
-            || title.eq_ignore_ascii_case("domain")
-            || title.eq_ignore_ascii_case("problem")
+        let open = self.after(keyword).filter(|&at| self.tokens[at].kind == TokenKind::Open);
+        open.and_then(|open| self.after(open)).is_some_and(|title| {
+            let title = self.slice(title);
+            title.eq_ignore_ascii_case("domain") || title.eq_ignore_ascii_case("problem")
+        })
     }
 
     /// Whether a section starts at the parenthesis `at`. A misspelt one must be at the start of a line, in line with the others.

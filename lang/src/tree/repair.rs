@@ -52,6 +52,9 @@ const DEEP: usize = 400;
 /// What it costs to leave out a parenthesis at the start of a line, measured in lines that are indented oddly.
 const DELIBERATE: u32 = 3;
 
+/// How many steps it takes to go back to a place.
+const COPY: usize = 8;
+
 /// How many steps the repairs of one text may take, so that a text full of mistakes is read fast too.
 pub(super) const STEPS: usize = 6_000_000;
 
@@ -66,6 +69,7 @@ pub(super) fn repair(
 ) -> Repair {
     let mut search = Search {
         pieces: pieces(text, tokens, section.start, end),
+        closed: (end as usize == tokens.len()).then_some(0),
         lines: Vec::new(),
         base: section.depth,
         depth: depth as usize,
@@ -89,9 +93,16 @@ pub(super) fn repair(
 
 /// The parentheses and words of a part of the text.
 fn pieces(text: &str, tokens: &[Token], start: u32, end: u32) -> Vec<Piece> {
-    let mut pieces = Vec::new();
+    let mut pieces: Vec<Piece> = Vec::new();
     let mut starts_line = start == 0;
+    let mut wrapped = start;
     for index in start..end {
+        if starts_line && index >= wrapped {
+            wrapped = comment_end(text, tokens, index, end);
+        }
+        if index < wrapped {
+            continue;
+        }
         let token = tokens[index as usize];
         let slice = &text[token.start as usize..token.end as usize];
         let kind = match token.kind {
@@ -102,13 +113,35 @@ fn pieces(text: &str, tokens: &[Token], start: u32, end: u32) -> Vec<Piece> {
             TokenKind::Comment => continue,
             TokenKind::Open => PieceKind::Open,
             TokenKind::Close => PieceKind::Close,
-            TokenKind::Atom => PieceKind::Word(Word::read(slice)),
+            TokenKind::Atom => {
+                let first = pieces.last().is_none_or(|last| last.kind == PieceKind::Open);
+                PieceKind::Word(Word::read(slice, first))
+            }
         };
         let starts = std::mem::replace(&mut starts_line, false) || index == start;
         let indent = outline::indent(text, token.start as usize).filter(|_| starts);
         pieces.push(Piece { kind, token: index, indent: indent.map(|indent| indent as u32) });
     }
     pieces
+}
+
+/// The token after the words that start at `index`, if they have a line of their own below a comment: that comment was wrapped, and they belong to it.
+fn comment_end(text: &str, tokens: &[Token], index: u32, end: u32) -> u32 {
+    let breaks = |token: &Token| {
+        token.kind == TokenKind::Space
+            && text[token.start as usize..token.end as usize].contains(['\n', '\r'])
+    };
+    let (before, after) = tokens[..end as usize].split_at(index as usize);
+    let below = matches!(before, [.., comment, blank] if comment.kind == TokenKind::Comment && breaks(blank));
+    let words = after
+        .iter()
+        .take_while(|token| {
+            !breaks(token) && matches!(token.kind, TokenKind::Atom | TokenKind::Space)
+        })
+        .count();
+    let alone = after.get(words).is_none_or(breaks);
+    let keyword = after.first().is_some_and(|token| text[token.start as usize..].starts_with(':'));
+    if below && alone && words > 0 && !keyword { index + words as u32 } else { index }
 }
 
 /// A parenthesis that is tried.
@@ -131,6 +164,8 @@ struct First {
 
 struct Search<'s> {
     pieces: Vec<Piece>,
+    /// How many lists end with the text, if these pieces are the last ones.
+    closed: Option<usize>,
     /// The number of the line on which each piece stands.
     lines: Vec<u32>,
     base: u32,
@@ -144,7 +179,7 @@ impl Search<'_> {
         *self.steps = self.steps.checked_sub(self.pieces.len())?;
         let end = self.pieces.len();
         let mut first = First { odd: end, impossible: end, misplaced: None };
-        let mut state = State::new(self.base);
+        let mut state = State::new(self.base, self.depth);
         for (at, &piece) in self.pieces.iter().enumerate() {
             let before = state.cost;
             state.step(piece);
@@ -161,12 +196,12 @@ impl Search<'_> {
                 return None;
             }
         }
-        Some((first, state.finish(self.depth)))
+        Some((first, finish(state, self.closed)))
     }
 
     /// The change with which the cost is least, if some change helps.
     ///
-    /// Of equal ones the last in the text is taken, but a `)` is added on the first line where it can be:
+    /// Of equal ones the last in the text is taken, but among other `)` one is added on the first line:
     /// the lists that end there may be those that were left open, and the ones that end below them need not.
     fn best(&mut self, first: &First, now: Cost) -> Option<(Change, usize)> {
         let end = self.pieces.len();
@@ -186,7 +221,7 @@ impl Search<'_> {
             Some(*line)
         }));
         let mut states = Vec::with_capacity(places.len());
-        let mut state = State::new(self.base);
+        let mut state = State::new(self.base, self.depth);
         let mut read = 0;
         for &place in &places {
             self.pieces[read..place].iter().for_each(|&piece| state.step(piece));
@@ -199,8 +234,11 @@ impl Search<'_> {
             for change in self.changes(place) {
                 let Some(cost) = self.cost(state, change, place, least) else { continue };
                 let earlier = |&(other, at): &(Change, usize)| {
+                    let between = &self.pieces[place..at];
                     let is_close = other == Change::Close && change == Change::Close;
-                    is_close && self.lines[place - 1] < self.lines[at - 1]
+                    is_close
+                        && between.iter().all(|piece| piece.kind == PieceKind::Close)
+                        && self.lines[place - 1] < self.lines[at - 1]
                 };
                 if cost < least || best.as_ref().is_none_or(earlier) {
                     (least, best) = (cost, Some((change, place)));
@@ -216,7 +254,8 @@ impl Search<'_> {
         let before = place.checked_sub(1).map(|before| self.pieces[before].kind);
         let open = (here == Some(PieceKind::Open)).then_some(Change::Drop);
         let close = (here == Some(PieceKind::Close)).then_some(Change::Drop);
-        let inserts = before.is_some_and(|before| before != PieceKind::Open);
+        let inserts = self.ends(Change::Close, place)
+            || before.is_some_and(|before| before != PieceKind::Open);
         let insert = inserts.then_some(Change::Close);
         let starts = match here {
             Some(PieceKind::Word(_)) => before != Some(PieceKind::Open),
@@ -232,22 +271,31 @@ impl Search<'_> {
 
     /// The cost with a change, if it is not more than `limit`.
     fn cost(&mut self, state: &State, change: Change, place: usize, limit: Cost) -> Option<Cost> {
+        if change == Change::Open && state.is_in_words() {
+            return None;
+        }
         let mut state = state.clone();
         let (changed, rest) = self.changed(change, place);
         changed.into_iter().flatten().for_each(|piece| state.step(piece));
+        let closed = self.closed.map(|closed| closed + usize::from(self.ends(change, place)));
         // What stands at the start of a line was put there on purpose.
         let starts = change == Change::Drop && self.pieces[place].indent.is_some();
         state.cost.odd += DELIBERATE * u32::from(starts);
         for (read, &piece) in self.pieces.iter().skip(rest).enumerate() {
             if state.cost > limit {
-                *self.steps = self.steps.saturating_sub(read);
+                *self.steps = self.steps.saturating_sub(read + COPY);
                 return None;
             }
             state.step(piece);
         }
-        *self.steps = self.steps.saturating_sub(self.pieces.len() - place);
-        let cost = state.finish(self.depth);
+        *self.steps = self.steps.saturating_sub(self.pieces.len() - place + COPY);
+        let cost = finish(state, closed);
         (cost <= limit).then_some(cost)
+    }
+
+    /// Whether a change ends a list with the text.
+    fn ends(&self, change: Change, place: usize) -> bool {
+        change == Change::Close && place == self.pieces.len() && self.closed.is_some()
     }
 
     /// What stands at a place after a change, and the piece with which the text goes on.
@@ -256,6 +304,7 @@ impl Search<'_> {
         let token = here.map_or(0, |piece| piece.token);
         let new = |kind, token, indent| Some(Piece { kind, token, indent });
         match change {
+            Change::Close if self.ends(change, place) => ([None; 2], place),
             Change::Close => {
                 let before = place.checked_sub(1).map_or(0, |before| self.pieces[before].token);
                 ([new(PieceKind::Close, before, None), None], place)
@@ -283,7 +332,18 @@ impl Search<'_> {
             Change::Drop => Edit::Drop(self.pieces[place].token),
         };
         let rest = rest.min(self.pieces.len());
+        if self.ends(change, place) {
+            self.closed = self.closed.map(|closed| closed + 1);
+        }
         self.pieces.splice(place..rest, changed.into_iter().flatten());
         edit
+    }
+}
+
+/// The cost at the end of the section, or of the text if so many lists end with it.
+fn finish(state: State, closed: Option<usize>) -> Cost {
+    match closed {
+        Some(closed) => state.cut(closed),
+        None => state.finish(),
     }
 }

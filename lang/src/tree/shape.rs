@@ -34,7 +34,7 @@ pub(super) struct Cost {
 }
 
 /// What a keyword in a wrong place costs. It is more than a parenthesis, so that one may be inserted for it that is taken away elsewhere.
-const MISPLACED: u32 = 2;
+const MISPLACED: u32 = 3;
 
 /// What a word or a list in a wrong place costs, measured in lines that are indented oddly.
 pub(super) const UNEXPECTED: u32 = 6;
@@ -71,6 +71,8 @@ struct Frame {
 #[derive(Debug, Clone)]
 pub(super) struct State {
     stack: Vec<Frame>,
+    /// How many lists are to be open at the end.
+    floor: usize,
     pub(super) cost: Cost,
     /// Whether a whole list has ended outside of all others.
     ended: bool,
@@ -79,8 +81,8 @@ pub(super) struct State {
 }
 
 impl State {
-    /// Before the definition, or directly in it.
-    pub(super) fn new(depth: u32) -> Self {
+    /// Before the definition, or directly in it; `floor` lists stay open to the end.
+    pub(super) fn new(depth: u32, floor: usize) -> Self {
         let definition = Frame {
             kind: Kind::Definition,
             given: 1,
@@ -91,6 +93,7 @@ impl State {
         };
         Self {
             stack: vec![definition; depth as usize],
+            floor,
             cost: Cost::default(),
             ended: false,
             line: 0,
@@ -101,6 +104,12 @@ impl State {
     /// How many lists are open.
     pub(super) fn depth(&self) -> usize {
         self.stack.len()
+    }
+
+    /// Whether words are wanted here: a list that is opened for them would hide whatever follows.
+    pub(super) fn is_in_words(&self) -> bool {
+        let list = self.stack.last();
+        list.is_some_and(|list| list.kind == Kind::Fields && list.last == Last::Field(Role::Words))
     }
 
     /// Reads one more.
@@ -115,12 +124,21 @@ impl State {
         }
     }
 
-    /// The cost if the text ends here, where `depth` lists should be open.
-    pub(super) fn finish(mut self, depth: usize) -> Cost {
-        self.cost.impossible += self.stack.len().abs_diff(depth) as u32;
-        while self.stack.len() > depth {
+    /// The cost if the section ends here.
+    pub(super) fn finish(mut self) -> Cost {
+        self.cost.impossible += self.stack.len().abs_diff(self.floor) as u32;
+        while self.stack.len() > self.floor {
             self.close();
         }
+        self.cost
+    }
+
+    /// The cost if the whole text ends here, and so many lists with it.
+    ///
+    /// It may have been cut off, so no list is blamed for what is not in it.
+    pub(super) fn cut(mut self, closed: usize) -> Cost {
+        let open = self.stack.len().saturating_sub(closed);
+        self.cost.impossible += open.abs_diff(self.floor) as u32;
         self.cost
     }
 
@@ -172,6 +190,7 @@ impl State {
         };
         self.cost.odd += UNEXPECTED * u32::from(list.is_unfinished());
         self.ended |= self.stack.is_empty();
+        self.cost.impossible += u32::from(self.stack.len() < self.floor);
     }
 
     fn word(&mut self, word: Word) {
@@ -215,7 +234,7 @@ impl Frame {
                     Role::Formula => Kind::Loose,
                     _ => Kind::Free,
                 };
-                if role == Role::Variables { (Role::Part, false) } else { (role, true) }
+                if role == Role::Variables { (Role::Type, false) } else { (role, true) }
             }
             Kind::Definition if given == 0 => (Role::Title, false),
             Kind::Definition => (Role::Section, false),
@@ -223,15 +242,17 @@ impl Frame {
                 Last::Field(role) => (role, false),
                 _ => (Role::Formula, true),
             },
-            Kind::Declarations => (Role::Declaration, false),
-            Kind::Names { .. } | Kind::Variables => (Role::Part, false),
-            Kind::Facts | Kind::Loose => (Role::Formula, false),
+            Kind::Declarations | Kind::Private => (Role::Declaration, false),
+            Kind::Names { .. } => (Role::Part, false),
+            Kind::Variables => (Role::Type, last != Last::Dash),
+            Kind::Facts => (Role::Fact, false),
+            Kind::Loose => (Role::Formula, false),
             Kind::Formulas { most, .. } => (Role::Formula, given >= most),
             Kind::Derived if given == 0 => (Role::Declaration, false),
-            Kind::Derived => (Role::Formula, given > 1),
             Kind::Quantifier if given == 0 => (Role::Variables, false),
-            Kind::Quantifier => (Role::Formula, given > 1),
-            Kind::Operands => (Role::Expression, given > 1),
+            Kind::Derived | Kind::Quantifier => (Role::Formula, given > 1),
+            Kind::Operands | Kind::Value => (Role::Expression, given > 1),
+            Kind::Metric => (Role::Expression, given != 1),
             Kind::Arithmetic => (Role::Expression, false),
             Kind::Timed => (Role::Formula, last == Last::List),
             Kind::At | Kind::Atom => (Role::Formula, true),
@@ -274,7 +295,7 @@ impl Frame {
                 Word::Dash => last != Last::List,
                 _ => last != Last::Dash,
             },
-            Kind::Variables => match word {
+            Kind::Variables | Kind::Private => match word {
                 Word::Variable => last == Last::Dash,
                 Word::Dash => last != Last::Word,
                 _ => last != Last::Dash || leads,
@@ -288,8 +309,16 @@ impl Frame {
             }
             Kind::Atom => leads || word == Word::Dash,
             Kind::Operands => leads || given > 1,
+            Kind::Value => leads || given != 1,
+            Kind::Metric => leads || given > 0,
             Kind::Title => given > 0,
-            Kind::Arithmetic | Kind::Loose | Kind::Free => false,
+            Kind::Arithmetic => leads || word == Word::Name,
+            // A preference has a name.
+            Kind::Loose => match word {
+                Word::Name => given > 0,
+                _ => word != Word::Number,
+            },
+            Kind::Free => false,
             Kind::New(_)
             | Kind::Definition
             | Kind::Facts
@@ -308,18 +337,22 @@ impl Frame {
             (Role::Title, _) => (Kind::Title, word != Word::Title),
             (Role::Section, Word::Keyword(kind, _)) => (kind, kind == Kind::Free),
             (Role::Section, _) => (Kind::Free, true),
-            (Role::Declaration | Role::Part, Word::Keyword(..)) => (Kind::Free, false),
+            (Role::Declaration, Word::Keyword(..)) => (Kind::Private, false),
+            (Role::Part, Word::Keyword(..)) => (Kind::Names { keywords: false }, false),
             (Role::Declaration, _) => (Kind::Variables, !name),
-            (Role::Part, _) => (Kind::Words, word != Word::Either),
+            (Role::Type | Role::Part, _) => (Kind::Words, word != Word::Either),
             (Role::Variables, _) => {
                 self.kind = Kind::Variables;
                 return self.word(word);
             }
-            (Role::Formula | Role::Expression, Word::Connective(kind) | Word::Ambiguous(kind)) => {
+            (Role::Fact, Word::Connective(Kind::Operands)) => (Kind::Value, false),
+            (Role::Expression, Word::Connective(kind)) => (kind, true),
+            (Role::Formula | Role::Fact, Word::Connective(kind))
+            | (Role::Formula | Role::Fact | Role::Expression, Word::Ambiguous(kind)) => {
                 (kind, false)
             }
             (Role::Expression, Word::Dash) => (Kind::Arithmetic, false),
-            (Role::Formula | Role::Expression, _) => (Kind::Atom, !name),
+            (Role::Formula | Role::Fact | Role::Expression, _) => (Kind::Atom, !name),
             (Role::Top | Role::Words | Role::Free, _) => (Kind::Free, false),
         };
         self.kind = kind;
@@ -333,7 +366,9 @@ impl Frame {
             Kind::Definition => self.given == 0,
             Kind::Fields => matches!(self.last, Last::Field(role) if role != Role::Words),
             Kind::Formulas { least, .. } => self.given < least,
-            Kind::Derived | Kind::Quantifier | Kind::Operands => self.given < 2,
+            Kind::Derived | Kind::Quantifier | Kind::Operands | Kind::Value | Kind::Metric => {
+                self.given < 2
+            }
             Kind::Timed => self.last != Last::List,
             Kind::Variables | Kind::Names { .. } => self.last == Last::Dash,
             _ => false,

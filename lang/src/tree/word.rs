@@ -19,6 +19,8 @@ pub(super) enum Kind {
     Fields,
     /// `(:predicates (p ?x) …)`
     Declarations,
+    /// `(:private ?a - agent (p ?x) …)`
+    Private,
     /// `(:objects a b - t …)`; keywords too in `(:requirements …)`.
     Names { keywords: bool },
     /// `(:init (p a) …)`
@@ -31,6 +33,10 @@ pub(super) enum Kind {
     Quantifier,
     /// Two words or lists.
     Operands,
+    /// A function in parentheses and its value.
+    Value,
+    /// `(:metric minimize …)`
+    Metric,
     /// `(at …)` and `(over …)`, of which the next word says whether it is about time.
     At,
     /// `(at start FORMULA)`
@@ -59,7 +65,11 @@ pub(super) enum Role {
     Declaration,
     Variables,
     Formula,
+    /// Of the initial state.
+    Fact,
     Expression,
+    /// `(either …)`
+    Type,
     /// `(either …)` and `(:private …)`
     Part,
     /// Of a field whose value is written in words.
@@ -97,13 +107,17 @@ const fn exactly(count: u32) -> Kind {
 }
 
 impl Word {
-    /// What `text` is; the case does not matter.
-    pub(super) fn read(text: &str) -> Self {
+    /// What `text` is; the case does not matter. Only the first word of a list can be a misspelt section.
+    pub(super) fn read(text: &str, first: bool) -> Self {
         let lower = text.to_ascii_lowercase();
         let digits = text.trim_start_matches(['-', '+', '.']);
         match text.as_bytes()[0] {
-            b':' => return Self::Keyword(section(&lower), field(&lower)),
+            b':' => {
+                let meant = if first { outline::intended(&lower) } else { None };
+                return Self::Keyword(section(meant.unwrap_or(&lower)), field(&lower));
+            }
             b'?' => return Self::Variable,
+            b'#' => return Self::Number,
             _ if lexer::is_dash(text) => return Self::Dash,
             _ if digits
                 .bytes()
@@ -125,7 +139,7 @@ impl Word {
             "forall" | "exists" => Self::Connective(Kind::Quantifier),
             "=" | "<" | ">" | "<=" | ">=" => Self::Connective(Kind::Operands),
             "increase" | "decrease" | "assign" | "scale-up" | "scale-down" => {
-                Self::Ambiguous(Kind::Operands)
+                Self::Ambiguous(Kind::Value)
             }
             "preference" | "always" | "sometime" | "within" | "at-most-once" | "sometime-after"
             | "sometime-before" | "always-within" | "hold-during" | "hold-after" | "oneof"
@@ -137,9 +151,9 @@ impl Word {
     }
 }
 
-/// What a section contains, by its keyword in lower case or the one that was probably meant.
+/// What a section contains, by its keyword in lower case.
 fn section(keyword: &str) -> Kind {
-    match outline::intended(keyword).unwrap_or(keyword) {
+    match keyword {
         ":requirements" => Kind::Names { keywords: true },
         ":types" | ":constants" | ":objects" | ":domain" => Kind::Names { keywords: false },
         ":predicates" | ":functions" => Kind::Declarations,
@@ -153,6 +167,7 @@ fn section(keyword: &str) -> Kind {
         | ":concurrency-constraint" => Kind::Fields,
         ":derived" => Kind::Derived,
         ":init" => Kind::Facts,
+        ":metric" => Kind::Metric,
         ":goal" | ":constraints" => exactly(1),
         _ => Kind::Free,
     }
