@@ -1,13 +1,19 @@
 //! No text makes the reader panic, overflow the stack or take long; and the tree keeps every byte.
 
 use std::fmt::Write;
+use std::fs;
+use std::panic;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use lang::diagnostic::Diagnostics;
 use lang::model::{Domain, Problem};
 use lang::source::{SourceId, Sources};
-use lang::{render, tree};
+use lang::{lexer, render, tree};
 use proptest::prelude::*;
+
+#[path = "../../tests/fuzz/promises.rs"]
+mod promises;
 
 const DOMAIN: &str = include_str!("fixtures/domain.pddl");
 const PROBLEM: &str = include_str!("fixtures/problem.pddl");
@@ -50,6 +56,68 @@ fn every_prefix_is_read() {
     for end in (0..=PROBLEM.len()).filter(|&end| PROBLEM.is_char_boundary(end)) {
         read(DOMAIN, &PROBLEM[..end]);
     }
+}
+
+/// All files of PDDL or HDDL in a folder and below it.
+fn files_below(folder: &Path, found: &mut Vec<PathBuf>) {
+    let entries = fs::read_dir(folder).expect("the folder can be read");
+    let mut entries: Vec<PathBuf> =
+        entries.map(|entry| entry.expect("an entry can be read").path()).collect();
+    entries.sort();
+    for path in entries {
+        if path.is_dir() {
+            files_below(&path, found);
+        } else if path.extension().is_some_and(|end| end == "pddl" || end == "hddl") {
+            found.push(path);
+        }
+    }
+}
+
+/// Of each file this many bytes are read, in prefixes as far apart as that makes them.
+const READ: usize = 6_000;
+
+#[test]
+fn prefixes_of_real_files_are_read() {
+    let root = match std::env::var_os("CAVEAT_SHARED") {
+        Some(root) => PathBuf::from(root),
+        None => Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared"),
+    };
+    if !root.join("corpus").is_dir() {
+        eprintln!("SKIPPED: no shared material at {}; set CAVEAT_SHARED", root.display());
+        return;
+    }
+    let mut files = Vec::new();
+    for folder in ["bad-pddl", "valid-pddl", "mapddl"] {
+        files_below(&root.join("corpus").join(folder), &mut files);
+    }
+    assert!(files.len() > 100, "only {} files were found", files.len());
+    let mut prefixes = 0;
+    for file in files {
+        let text = fs::read_to_string(&file).expect("the file can be read");
+        let mut ends: Vec<usize> =
+            lexer::lex(&text).iter().map(|token| token.end as usize).collect();
+        // Words are cut in the middle too.
+        ends.extend((0..text.len()).step_by(17).filter(|&end| text.is_char_boundary(end)));
+        ends.sort_unstable();
+        let apart = (ends.iter().sum::<usize>() / READ).max(1);
+        for &end in ends.iter().step_by(apart) {
+            prefixes += 1;
+            let prefix = &text[..end];
+            let done = panic::catch_unwind(|| {
+                promises::keep("tree", prefix.as_bytes());
+                promises::keep("format", prefix.as_bytes());
+                let mut sources = Sources::default();
+                let id = sources.add("start", text.as_str());
+                if matches!(lang::detect(&sources, id), Some(lang::Kind::Problem { .. })) {
+                    promises::pair(DOMAIN, prefix);
+                } else {
+                    promises::keep("domain", prefix.as_bytes());
+                }
+            });
+            assert!(done.is_ok(), "{}, {end} bytes", file.display());
+        }
+    }
+    assert!(prefixes > 400, "only {prefixes} prefixes were read");
 }
 
 #[test]

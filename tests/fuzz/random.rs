@@ -1,6 +1,6 @@
 //! The kept texts go in; each is changed at random and held against the promises, and what breaks one comes out, made small.
 //!
-//! `cargo run -p suite --example mutate -- SECONDS [SEED [TARGET ...]]` works on stable Rust. It knows nothing of what a text reaches,
+//! `cargo run -p suite --example random -- SECONDS [SEED [TARGET ...]]` works on stable Rust. It knows nothing of what a text reaches,
 //! as libFuzzer does; it knows what PDDL is made of.
 
 mod promises;
@@ -13,7 +13,7 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 /// A text that takes longer than this is a find.
-const SLOW: Duration = Duration::from_secs(1);
+const SLOW: Duration = Duration::from_secs(5);
 
 /// Of different panics of one target, this many are looked at.
 const FINDS: usize = 20;
@@ -30,7 +30,7 @@ fn main() -> ExitCode {
     let wanted = arguments.get(2..).unwrap_or_default();
     let known = |name: &String| promises::TARGETS.iter().any(|(target, _)| target == name);
     let (Some(seconds), true) = (number(0), wanted.iter().all(known)) else {
-        eprintln!("usage: mutate SECONDS [SEED [TARGET ...]]");
+        eprintln!("usage: random SECONDS [SEED [TARGET ...]]");
         return ExitCode::from(2);
     };
     let seed = number(1).unwrap_or(1).max(1);
