@@ -1,6 +1,6 @@
 #![doc = include_str!("action_atom_arity.md")]
 
-use super::{Diagnostic, Rule, Severity};
+use super::{Diagnostic, Rule, Severity, wrong_arity};
 use crate::source::Span;
 
 /// The kind `action-atom-arity`.
@@ -20,20 +20,8 @@ pub fn action_atom_arity(
     span: Span,
     declared: Span,
 ) -> Diagnostic {
-    let (expected, given) = count;
-    let plural = if expected == 1 { "" } else { "s" };
-    let label = match (missing, given > expected) {
-        (_, true) => format!("{} too many", given - expected),
-        ("", false) => String::new(),
-        (missing, false) => format!("missing `{missing}`"),
-    };
-    RULE.at(
-        span,
-        format!("action `{name}` takes {expected} argument{plural}, {given} given"),
-        label,
-    )
-    .label(declared, "declared here")
-    .help(format!("declared as `{all}`; the agent is the first argument"))
+    wrong_arity::of(&RULE, &format!("action `{name}`"), count, missing, span, declared)
+        .help(format!("declared as `{all}`; the agent is the first argument"))
 }
 
 #[cfg(test)]

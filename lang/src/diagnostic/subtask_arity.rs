@@ -1,6 +1,6 @@
 #![doc = include_str!("subtask_arity.md")]
 
-use super::{Diagnostic, Rule, Severity};
+use super::{Diagnostic, Rule, Severity, wrong_arity};
 use crate::source::Span;
 
 /// The kind `subtask-arity`.
@@ -20,15 +20,7 @@ pub fn subtask_arity(
     span: Span,
     declared: Span,
 ) -> Diagnostic {
-    let (expected, given) = count;
-    let plural = if expected == 1 { "" } else { "s" };
-    let label = match (missing, given > expected) {
-        (_, true) => format!("{} too many", given - expected),
-        ("", false) => String::new(),
-        (missing, false) => format!("missing `{missing}`"),
-    };
-    RULE.at(span, format!("task `{name}` takes {expected} argument{plural}, {given} given"), label)
-        .label(declared, "declared here")
+    wrong_arity::of(&RULE, &format!("task `{name}`"), count, missing, span, declared)
         .help(format!("declared as `{all}`"))
 }
 

@@ -20,13 +20,26 @@ pub fn wrong_arity(
     span: Span,
     declared: Span,
 ) -> Diagnostic {
+    of(&RULE, what, (expected, given), missing, span, declared)
+}
+
+/// The same as a mistake of another kind; `count` is how many arguments are wanted and how many are given.
+pub(super) fn of(
+    rule: &Rule,
+    what: &str,
+    count: (usize, usize),
+    missing: &str,
+    span: Span,
+    declared: Span,
+) -> Diagnostic {
+    let (expected, given) = count;
     let plural = if expected == 1 { "" } else { "s" };
     let label = match (missing, given > expected) {
         (_, true) => format!("{} too many", given - expected),
         ("", false) => String::new(),
         (missing, false) => format!("missing argument `{missing}`"),
     };
-    RULE.at(span, format!("{what} takes {expected} argument{plural}, {given} given"), label)
+    rule.at(span, format!("{what} takes {expected} argument{plural}, {given} given"), label)
         .label(declared, "declared here")
 }
 
