@@ -57,26 +57,17 @@ pub struct Models<'m> {
 
 /// The annotations of a text, in its order, and what is wrong with them as far as no model is needed to say it.
 pub fn annotations(sources: &Sources, id: SourceId) -> (Vec<Annotation>, Diagnostics) {
-    checked(sources, id, Models::default())
-}
-
-/// The annotations of a text, and what is wrong with them.
-pub(crate) fn checked(
-    sources: &Sources,
-    id: SourceId,
-    models: Models<'_>,
-) -> (Vec<Annotation>, Diagnostics) {
-    let text = &sources.get(id).text;
-    if !text.contains(OPENING) {
-        return Default::default();
-    }
-    read(&tree::parse(id, text, &mut Diagnostics::default()), models)
+    let tree = tree::parse(id, &sources.get(id).text, &mut Diagnostics::default());
+    read(&tree, Models::default())
 }
 
 /// The annotations of a tree, and what is wrong with them.
 pub fn read(tree: &Tree<'_>, models: Models<'_>) -> (Vec<Annotation>, Diagnostics) {
     let mut annotations = Vec::new();
     let mut diagnostics = Diagnostics::default();
+    if !tree.input().contains(OPENING) {
+        return (annotations, diagnostics);
+    }
     for run in runs(tree) {
         let content = content(tree, &run);
         // Where parentheses do not match, what else looks wrong may follow from that.

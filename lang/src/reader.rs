@@ -33,7 +33,8 @@ fn domain(
     occurrences: Option<&mut Occurrences>,
 ) -> (model::Domain, Diagnostics) {
     let mut diagnostics = Diagnostics::default();
-    let ast = parse_domain(sources, id, &mut diagnostics);
+    let tree = tree::parse(id, &sources.get(id).text, &mut diagnostics);
+    let ast = syntax::domain(&tree, &mut diagnostics);
     let domain = check::domain(&ast, &mut diagnostics, occurrences);
     if !diagnostics.has_errors()
         && domain.uses.is_empty()
@@ -42,7 +43,7 @@ fn domain(
         diagnostics.push(unstratified.diagnostic(&domain));
     }
     let models = Models { domain: Some(&domain), problem: None };
-    diagnostics.append(annotation::checked(sources, id, models).1);
+    diagnostics.append(annotation::read(&tree, models).1);
     (domain, sorted(diagnostics))
 }
 
@@ -74,13 +75,14 @@ fn problem(
     occurrences: Option<&mut Occurrences>,
 ) -> (model::Problem, Diagnostics) {
     let mut diagnostics = Diagnostics::default();
-    let ast = parse_problem(sources, id, &mut diagnostics);
+    let tree = tree::parse(id, &sources.get(id).text, &mut diagnostics);
+    let ast = syntax::problem(&tree, &mut diagnostics);
     let problem = check::problem(&ast, domain, &mut diagnostics, occurrences);
     if diagnostics.list.iter().any(|diagnostic| diagnostic.name == "domain-name-mismatch") {
         without_strangers(&mut diagnostics);
     }
     let models = Models { domain: Some(domain), problem: Some(&problem) };
-    diagnostics.append(annotation::checked(sources, id, models).1);
+    diagnostics.append(annotation::read(&tree, models).1);
     (problem, sorted(diagnostics))
 }
 

@@ -8,10 +8,9 @@ use crate::ast::{
 };
 use crate::diagnostic::{
     misplaced_modality, misplaced_time_specifier, missing_time_specifier, unexpected_item,
-    unknown_predicate, when_in_condition, wrong_operand_count,
+    when_in_condition, wrong_operand_count,
 };
 use crate::model::{self, Node, NodeId, NodeKind, VariableId};
-use crate::near::nearest;
 use crate::source::Span;
 
 /// What a condition is about.
@@ -337,13 +336,6 @@ impl<'a> Condition<'_, '_, '_, 'a> {
     /// A predicate with values of functions among its arguments.
     fn nested(&mut self, name: crate::ast::Name<'a>, formula: &Formula<'a>, at: usize) {
         let node = &formula.nodes[at];
-        let words = ["and", "or", "not", "imply", "forall", "exists", "when"];
-        let unknown = self.world.names.predicates.find(name.text).is_none();
-        if let Some(near) = nearest(name.text, words).filter(|_| unknown) {
-            self.bindings.unsure = true;
-            let diagnostic = unknown_predicate::unknown_predicate(name.text, name.span, Some(near));
-            return self.report.push(diagnostic);
-        }
         let Some(predicate) = super::scope::predicate(name, self.world, self.report) else {
             self.bindings.unsure = true;
             return;
