@@ -12,6 +12,7 @@ mod condition;
 mod effect;
 mod temporal;
 mod agents;
+mod concurrency;
 mod network;
 mod action;
 mod domain;

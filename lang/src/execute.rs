@@ -11,6 +11,7 @@ mod solutions;
 mod state;
 mod strata;
 mod derive;
+pub mod joint;
 #[cfg(test)]
 mod tests;
 
@@ -34,7 +35,7 @@ use query::{Goal, Query};
 use relation::Relation;
 use solutions::Solutions;
 pub(crate) use solutions::value;
-use state::View;
+pub(crate) use state::View;
 use strata::Strata;
 
 /// Evaluates the conditions and applies the actions of one domain and problem.
@@ -149,14 +150,14 @@ impl<'a> Executor<'a> {
         formula: &Formula,
         binding: &[Option<ObjectId>],
     ) -> bool {
-        self.ask(state, scope, (formula, &Query::new(formula)), binding)
+        self.ask(self.view(state), scope, (formula, &Query::new(formula)), binding)
     }
 
     /// Whether the goal holds in `state`.
     pub fn goal(&self, state: &State) -> bool {
         let (goal, scope) = (&self.problem.goal, &self.problem.goal_scope);
         let query = self.goal.get_or_init(|| Query::new(goal));
-        self.ask(state, scope, (goal, query), &vec![None; scope.variables.len()])
+        self.ask(self.view(state), scope, (goal, query), &vec![None; scope.variables.len()])
     }
 
     /// Whether the step's arguments are as many as the action's parameters and of their types.
@@ -178,12 +179,17 @@ impl<'a> Executor<'a> {
         let action = self.action(step.action);
         let precondition = (&action.precondition, &self.queries(step.action).precondition);
         self.fits(step).is_ok()
-            && self.ask(state, &action.scope, precondition, &bind(&action.scope, step))
+            && self.ask(self.view(state), &action.scope, precondition, &bind(&action.scope, step))
     }
 
     /// Turns `state` into the one after the step, whether or not the precondition holds. The step must fit.
     pub fn apply(&self, state: &mut State, step: &Step) -> Change {
-        let (added, deleted) = self.effects(state, step);
+        let (added, deleted) = self.effects(self.view(state), step);
+        self.change(state, added, deleted)
+    }
+
+    /// Deletes first, then adds.
+    fn change(&self, state: &mut State, added: Facts, deleted: Facts) -> Change {
         let mut change = Change::default();
         for fact in deleted {
             if !added.contains(&fact) && state.remove(fact.predicate, &fact.arguments) {
@@ -214,13 +220,17 @@ impl<'a> Executor<'a> {
 
     /// What the step costs in `state`. The step must fit.
     pub fn cost(&self, state: &State, step: &Step) -> Result<Decimal, Undefined> {
+        self.price(self.view(state), step)
+    }
+
+    fn price(&self, view: View<'_>, step: &Step) -> Result<Decimal, Undefined> {
         let Some(metric) = &self.problem.metric else { return Ok(Decimal::ONE) };
         let action = self.action(step.action);
         let mut sum = Decimal::ZERO;
         for (increase, query) in action.increases.iter().zip(&self.queries(step.action).increases) {
             if increase.function == metric.function {
                 sum = sum.saturating_add(self.increase(
-                    state,
+                    view,
                     &action.scope,
                     (increase, query),
                     step,
@@ -230,19 +240,16 @@ impl<'a> Executor<'a> {
         Ok(sum)
     }
 
-    /// The metric's value in the initial state; 0 where there is no metric or the problem gives no value.
+    /// The metric's value in the initial state, summed over agents if it has one for each; 0 where there is none.
     pub fn initial_value(&self) -> Decimal {
-        let value = self
-            .problem
-            .metric
-            .as_ref()
-            .and_then(|metric| self.values.get(&(metric.function, Box::default())));
-        value.copied().unwrap_or_default()
+        let Some(metric) = &self.problem.metric else { return Decimal::ZERO };
+        let values = self.values.iter().filter(|((function, _), _)| *function == metric.function);
+        values.fold(Decimal::ZERO, |sum, (_, &value)| sum.saturating_add(value))
     }
 
     fn increase(
         &self,
-        state: &State,
+        view: View<'_>,
         scope: &Scope,
         (increase, query): (&Increase, &Query),
         step: &Step,
@@ -252,7 +259,7 @@ impl<'a> Executor<'a> {
         // The same binding may come twice, and counts once.
         let mut seen = FxHashSet::default();
         let mut solutions =
-            self.instances(state, scope, (condition, query), (variables, bind(scope, step)));
+            self.instances(view, scope, (condition, query), (variables, bind(scope, step)));
         while solutions.advance() {
             let binding = solutions.binding();
             let key: Vec<_> = variables.iter().map(|variable| binding[variable.index()]).collect();
@@ -280,14 +287,14 @@ impl<'a> Executor<'a> {
     }
 
     /// What the step adds and deletes, each once, as the state before says.
-    fn effects(&self, state: &State, step: &Step) -> (Facts, Facts) {
+    fn effects(&self, view: View<'_>, step: &Step) -> (Facts, Facts) {
         let action = self.action(step.action);
         let (mut added, mut deleted) = (Facts::default(), Facts::default());
         for (effect, query) in action.effects.iter().zip(&self.queries(step.action).effects) {
             let Effect { variables, condition, literals, .. } = effect;
             let binding = bind(&action.scope, step);
             let mut solutions =
-                self.instances(state, &action.scope, (condition, query), (variables, binding));
+                self.instances(view, &action.scope, (condition, query), (variables, binding));
             while solutions.advance() {
                 for literal in literals {
                     let fact = ground(&literal.atom, solutions.binding());
@@ -300,37 +307,37 @@ impl<'a> Executor<'a> {
 
     fn instances<'b>(
         &'b self,
-        state: &'b State,
+        view: View<'b>,
         scope: &'b Scope,
         condition: (&'b Formula, &'b Query),
         (variables, binding): (&[VariableId], Vec<Option<ObjectId>>),
     ) -> Solutions<'b> {
         let mut goals: Vec<_> = variables.iter().map(|&variable| Goal::Binds(variable)).collect();
         goals.push(Goal::Holds(condition.0.root()));
-        self.solutions(state, scope, condition, binding, goals)
+        self.solutions(view, scope, condition, binding, goals)
     }
 
     /// The bindings beyond `binding` that satisfy `goals`, which are about `formula`.
     pub(crate) fn solutions<'b>(
         &'b self,
-        state: &'b State,
+        view: View<'b>,
         scope: &'b Scope,
         formula: (&'b Formula, &'b Query),
         binding: Vec<Option<ObjectId>>,
         goals: Vec<Goal>,
     ) -> Solutions<'b> {
-        Solutions::new(self.view(state), scope, formula, binding, goals)
+        Solutions::new(view, scope, formula, binding, goals)
     }
 
     fn ask(
         &self,
-        state: &State,
+        view: View<'_>,
         scope: &Scope,
         formula: (&Formula, &Query),
         binding: &[Option<ObjectId>],
     ) -> bool {
         let goals = vec![Goal::Holds(formula.0.root())];
-        self.solutions(state, scope, formula, binding.to_vec(), goals).advance()
+        self.solutions(view, scope, formula, binding.to_vec(), goals).advance()
     }
 
     /// Forgets what was derived from facts of this predicate.
@@ -378,8 +385,8 @@ impl<'a> Executor<'a> {
         component.is_some_and(|component| self.strata.dependents(base).contains(&component))
     }
 
-    fn view<'b>(&'b self, state: &'b State) -> View<'b> {
-        View { executor: self, state, building: None }
+    pub(crate) fn view<'b>(&'b self, state: &'b State) -> View<'b> {
+        View { executor: self, state, building: None, joint: None }
     }
 
     fn strata(&self) -> &Strata {

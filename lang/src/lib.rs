@@ -24,6 +24,7 @@ mod near;
 mod check;
 mod reader;
 pub mod model;
+pub mod condition;
 pub mod symbol;
 pub mod portability;
 pub mod support;

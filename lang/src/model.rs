@@ -77,6 +77,7 @@ pub enum Requirement {
     Hierarchy,
     MultiAgent,
     FactoredPrivacy,
+    UnfactoredPrivacy,
 }
 
 /// A part of the language that is used and not yet resolved, so that nothing can run what stands there.
@@ -142,6 +143,8 @@ pub struct Signature {
     pub parameters: Vec<Variable>,
     /// Whether the first parameter is the agent.
     pub agent: bool,
+    /// Where it stands among the actions of the model, if it happens in an instant.
+    pub action: Option<ActionId>,
 }
 
 /// A type and where it stands in the hierarchy.
@@ -243,6 +246,8 @@ pub struct Action {
     pub name: Name,
     /// The variables.
     pub scope: Scope,
+    /// Whether the first parameter is the agent that acts.
+    pub agent: bool,
     /// What must hold before; true where it is left out.
     pub precondition: Formula,
     /// What it does, in the order of the text, nested `and`, `forall` and `when` taken apart.
@@ -321,6 +326,15 @@ pub struct Atom {
     pub arguments: Vec<Term>,
 }
 
+/// An action applied to terms, the agent first: whether it stands in the joint action (Kovács 2012, *action formula*).
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct ActionAtom {
+    /// The action.
+    pub action: ActionId,
+    /// As many as the action has parameters.
+    pub arguments: Vec<Term>,
+}
+
 /// A condition, as a list of nodes in post-order: every child stands before its parent, and the root is the last.
 #[derive(Debug, Clone)]
 pub struct Formula {
@@ -344,6 +358,8 @@ pub enum NodeKind {
     Atom(Atom),
     /// Two terms are the same object.
     Equal(Term, Term),
+    /// An action stands in the joint action, in MA-PDDL.
+    Action(ActionAtom),
     /// The child does not hold.
     Not(NodeId),
     /// All children hold; true without children.
@@ -433,6 +449,11 @@ pub struct Problem {
 }
 
 impl Domain {
+    /// Whether agents act in it, so that plans consist of joint actions.
+    pub fn is_multi_agent(&self) -> bool {
+        self.actions.iter().any(|action| action.agent)
+    }
+
     /// Whether something of type `sub` is also of type `above`.
     pub fn is_subtype(&self, sub: TypeId, above: TypeId) -> bool {
         self.types[sub.index()].ancestors.binary_search(&above).is_ok()

@@ -2,7 +2,9 @@
 
 mod read;
 mod write;
+mod joint;
 
+pub use joint::{JointPlan, write_joint};
 pub use read::{Listing, read};
 pub use write::{line, write};
 

@@ -5,15 +5,18 @@
 mod words;
 mod explain;
 mod repair;
+mod told;
 mod story;
+pub mod joint;
 
 use rust_decimal::Decimal;
 
+use explain::Site;
 pub use explain::{Part, What};
 pub use repair::Repair;
 pub use story::{lines, story};
 
-use crate::execute::{Change, Executor, Misfit, State, Undefined, Unstratified};
+use crate::execute::{Change, Executor, Misfit, State, Undefined, Unstratified, bind};
 use crate::model::{Domain, Problem};
 use crate::plan::Plan;
 use crate::source::Span;
@@ -123,6 +126,24 @@ impl Run<'_> {
         Ok(Success { steps: self.plan.steps.len(), cost, value })
     }
 
+    /// The condition at `place`.
+    fn site(&self, place: Place) -> Site<'_> {
+        let problem = self.executor.problem();
+        let (scope, formula, binding) = match place {
+            Place::Step(at) => {
+                let step = &self.plan.steps[at];
+                let action = &self.executor.domain().actions[step.action.index()];
+                (&action.scope, &action.precondition, bind(&action.scope, step))
+            }
+            Place::Goal => {
+                let scope = &problem.goal_scope;
+                (scope, &problem.goal, vec![None; scope.variables.len()])
+            }
+        };
+        let (executor, state, history) = (self.executor, &self.state, &self.history);
+        Site { executor, state, history, scope, formula, binding, joint: None }
+    }
+
     fn failure(&self, place: Place, cause: Option<Cause>) -> Failure {
         let executor = self.executor;
         if let Some(cause) = cause {
@@ -136,7 +157,7 @@ impl Run<'_> {
             };
             return Failure { place, cause, span, repair: Repair::None };
         }
-        let parts = explain::parts(self, place);
+        let parts = explain::parts(&self.site(place));
         let span = parts.first().expect("a condition that fails has a false part").span;
         let repair = repair::search(self, place, &parts);
         Failure { place, cause: Cause::False(parts), span, repair }

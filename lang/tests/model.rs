@@ -55,6 +55,11 @@ fn show(formula: &Formula, scope: &Scope, domain: &Domain) -> String {
                     .collect();
                 format!("({}{arguments})", domain.predicates[atom.predicate.index()].name.text)
             }
+            NodeKind::Action(atom) => {
+                let arguments: String =
+                    atom.arguments.iter().flat_map(|one| [" ".to_owned(), term(one)]).collect();
+                format!("({}{arguments})", domain.actions[atom.action.index()].name.text)
+            }
             NodeKind::Equal(left, right) => format!("(= {} {})", term(left), term(right)),
             NodeKind::Not(child) => join("not", &[*child]),
             NodeKind::And(children) => join("and", children),

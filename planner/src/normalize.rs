@@ -12,7 +12,7 @@ pub(crate) use cost::scaled;
 pub(crate) use formula::negate;
 pub(crate) use split::static_condition;
 
-use lang::model::{Domain, PredicateId, Problem};
+use lang::model::{Domain, Node, NodeKind, PredicateId, Problem};
 use lang::source::Span;
 
 use crate::normal::{Kind, Normal, Predicate};
@@ -29,8 +29,12 @@ pub struct Unsupported {
 /// Brings `problem` of `domain` into normal form.
 ///
 /// # Errors
-/// Costs that are negative, depend on a condition, or do not fit into 32 bits when scaled to integers.
+/// Action atoms, which [`lang::multiagent`] compiles away; costs that are negative, depend on a condition, or do not fit into 32 bits when scaled to integers.
 pub fn normalize(domain: &Domain, problem: &Problem) -> Result<Normal, Unsupported> {
+    if let Some(span) = action_atom(domain) {
+        let message = "an action atom, unless the domain is compiled".to_owned();
+        return Err(Unsupported { message, span });
+    }
     let mut builder = split::Builder::new(predicates(domain));
     let costs = cost::Costs::new(domain, problem)?;
     let mut schemas = Vec::new();
@@ -51,6 +55,17 @@ pub fn normalize(domain: &Domain, problem: &Problem) -> Result<Normal, Unsupport
         scale: costs.scale,
         uses_metric: problem.metric.is_some(),
     })
+}
+
+/// Where a condition first asks about the joint action.
+fn action_atom(domain: &Domain) -> Option<Span> {
+    let asks = |node: &&Node| matches!(node.kind, NodeKind::Action(_));
+    let conditions = domain.actions.iter().flat_map(|action| {
+        let effects = action.effects.iter().map(|effect| &effect.condition);
+        let increases = action.increases.iter().map(|increase| &increase.condition);
+        effects.chain(increases).chain([&action.precondition])
+    });
+    conditions.flat_map(|formula| &formula.nodes).find(asks).map(|node| node.span)
 }
 
 /// The predicates of `domain` with what changes them.

@@ -53,6 +53,7 @@ impl Known<'_> {
                     (false, false) => !self.reachable.contains(&fact),
                 }
             }
+            NodeKind::Action(_) => panic!("nothing here asks about joint actions"),
             NodeKind::Equal(left, right) => {
                 (value(left, binding) == value(right, binding)) == positive
             }

@@ -6,7 +6,7 @@ use super::scope::Bindings;
 use super::{Names, Report, World, agents, condition, domain, effect, name, temporal};
 use crate::ast::{self, ActionKind, Agent, DomainSection, Feature, Group, Name, TypedList};
 use crate::diagnostic::unused_parameter;
-use crate::model::{Action, Doing, Domain, Formula, Signature, TypeId, Variable};
+use crate::model::{Action, ActionId, Doing, Domain, Formula, Signature, TypeId, Variable};
 use crate::symbol::{Namespace, Symbol};
 
 /// Takes down the names and parameters of all actions and tasks, so that each may be named before it is defined.
@@ -16,6 +16,7 @@ pub(super) fn signatures<'a>(
     names: &mut Names<'a>,
     report: &mut Report<'_>,
 ) {
+    let mut instants = 0;
     for section in &ast.sections {
         let (spelling, doing, what, namespace) = match section {
             DomainSection::Action(action) => {
@@ -29,6 +30,9 @@ pub(super) fn signatures<'a>(
             DomainSection::Action(action) => action.agent.as_ref(),
             _ => None,
         };
+        let instant = doing == Doing::Action(ActionKind::Instant);
+        let action = instant.then_some(ActionId(instants));
+        instants += u32::from(instant);
         let mut parameters: Vec<Variable> = Vec::new();
         parameters.extend(agent.map(|agent| agent_parameter(agent, domain, names)));
         match section {
@@ -57,7 +61,7 @@ pub(super) fn signatures<'a>(
         table.insert(spelling.text, domain.signatures.len() as u32);
         report.declared_here(spelling, namespace);
         let (name, agent) = (name(spelling), agent.is_some());
-        domain.signatures.push(Signature { name, doing, parameters, agent });
+        domain.signatures.push(Signature { name, doing, parameters, agent, action });
     }
 }
 
@@ -113,11 +117,15 @@ pub(super) fn action<'a>(
     }
     bindings.durative = action.kind == ActionKind::Durative;
     bindings.continuous = matches!(action.kind, ActionKind::Durative | ActionKind::Process);
+    bindings.joint = true;
     if let Some(agent) = &action.agent {
         bindings.acting = agents::agent(agent, &mut bindings, world, report);
     }
+    let who = agents::nameless(&mut bindings, world, span);
     bindings.bind(&action.parameters, world, report);
     bindings.scope.parameters = bindings.scope.variables.len() as u32;
+    let instant = action.kind == ActionKind::Instant;
+    let agent = action.agent.is_some() && bindings.acting.is_some();
     if !action.unread.is_empty() {
         // A field that is not read may bind variables, so nothing can be said about the rest.
         for unread in &action.unread {
@@ -126,14 +134,22 @@ pub(super) fn action<'a>(
         let precondition = Formula::truth(span);
         let (effects, increases) = (Vec::new(), Vec::new());
         let (name, scope) = (name(action.name), bindings.scope);
-        return Some(Action { name, scope, precondition, effects, increases, span });
+        return instant.then_some(Action {
+            name,
+            scope,
+            agent,
+            precondition,
+            effects,
+            increases,
+            span,
+        });
     }
     for duration in &action.durations {
         temporal::duration(duration, &mut bindings, world, report);
     }
     let durative = action.kind == ActionKind::Durative;
     let setting = if durative { Setting::Durative } else { Setting::State };
-    let mut conditions = Vec::new();
+    let mut conditions: Vec<Formula> = who.into_iter().collect();
     for formula in &action.preconditions {
         conditions.push(condition::check(formula, 0, setting, &mut bindings, world, report));
     }
@@ -142,8 +158,7 @@ pub(super) fn action<'a>(
     unused(&bindings, report);
     let precondition = condition::conjoin(conditions, span);
     let (name, scope) = (name(action.name), bindings.scope);
-    let instant = action.kind == ActionKind::Instant;
-    instant.then_some(Action { name, scope, precondition, effects, increases, span })
+    instant.then_some(Action { name, scope, agent, precondition, effects, increases, span })
 }
 
 /// Warns of parameters that nothing uses.

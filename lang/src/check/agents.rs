@@ -2,6 +2,7 @@
 
 use hashbrown::HashMap;
 
+use super::concurrency::Constraint;
 use super::requirement::Need;
 use super::scope::{Bindings, Callee};
 use super::{Report, World, domain, hierarchy, name};
@@ -10,7 +11,10 @@ use crate::diagnostic::{
     agent_without_multi_agent, constraint_position, private_access, unexpected_item,
     unknown_action, unknown_constraint, unknown_type,
 };
-use crate::model::{Object, Owner, PredicateId, Term, TypeId, Variable, VariableId};
+use crate::model::{
+    ActionAtom, Formula, FunctionId, Node, NodeKind, Object, Owner, PredicateId, Term, TypeId,
+    Variable, VariableId,
+};
 use crate::near::nearest;
 use crate::source::Span;
 use crate::symbol::{Namespace, Symbol};
@@ -27,15 +31,32 @@ pub(super) enum Acting {
 
 /// Notes that a domain speaks of agents, and reports it if it does not declare that.
 pub(super) fn need(keyword: Name<'_>, report: &mut Report<'_>) {
-    if report.declared.agents() {
-        report.uses(Feature::MultiAgent, keyword.span);
-    } else if report.first(&agent_without_multi_agent::RULE, "") {
+    if !report.declared.agents() && report.first(&agent_without_multi_agent::RULE, "") {
         let diagnostic =
             agent_without_multi_agent::agent_without_multi_agent(keyword.text, keyword.span);
         let diagnostic = diagnostic.fix_requirement(":multi-agent", report.flags);
         report.push(diagnostic);
-        report.uses(Feature::MultiAgent, keyword.span);
     }
+}
+
+/// An agent that the action has no variable for becomes its first parameter, under a name that nothing can refer to;
+/// where it is an object, the condition that makes it that object is returned.
+pub(super) fn nameless(
+    bindings: &mut Bindings<'_>,
+    world: &World<'_, '_>,
+    span: Span,
+) -> Option<Formula> {
+    let (types, object) = match bindings.acting.as_ref()? {
+        Acting::Variable(_) => return None,
+        Acting::Object(term) => (bindings.types(*term, world).0.to_vec(), Some(*term)),
+        Acting::Any(types) => (types.clone(), None),
+    };
+    let name = crate::model::Name { text: "?agent".to_owned(), span };
+    bindings.scope.variables.push(Variable { name, types });
+    bindings.used.push(true);
+    let agent = Term::Variable(VariableId(bindings.scope.variables.len() as u32 - 1));
+    let is = |object| Node { kind: NodeKind::Equal(agent, object), span };
+    object.map(|object| Formula { nodes: vec![is(object)] })
 }
 
 /// Binds the agent of an action, a goal or a metric.
@@ -73,6 +94,30 @@ pub(super) fn agent<'a>(
     None
 }
 
+/// A goal that every agent has: with a variable, what is demanded of it is demanded of each.
+pub(super) fn of_each(agent: Option<&Acting>, mut goal: Formula) -> Formula {
+    if let Some(Acting::Variable(variable)) = agent {
+        let (root, span) = (goal.root(), goal.nodes[goal.root().index()].span);
+        goal.nodes.push(Node { kind: NodeKind::Forall(vec![*variable], root), span });
+    }
+    goal
+}
+
+/// Whether a metric of each agent adds up to all that a function of one agent counts.
+pub(super) fn sums(
+    agent: Option<&Acting>,
+    function: FunctionId,
+    terms: &[Term],
+    bindings: &Bindings<'_>,
+    world: &World<'_, '_>,
+) -> bool {
+    let Some(Acting::Variable(variable)) = agent else { return false };
+    let types = &bindings.scope.variables[variable.index()].types;
+    let parameters = &world.domain.functions[function.index()].parameters;
+    terms == [Term::Variable(*variable)]
+        && parameters.iter().all(|parameter| world.fits(&parameter.types, false, types))
+}
+
 /// Whether a name in a condition means an action: it is one and no predicate, or no predicate with as many arguments.
 pub(super) fn is_action_atom(name: Name<'_>, arguments: usize, world: &World<'_, '_>) -> bool {
     let Some(action) = world.names.actions.find(name.text) else { return false };
@@ -92,13 +137,18 @@ pub(super) fn action_atom<'a>(
     bindings: &mut Bindings<'a>,
     world: &World<'_, 'a>,
     report: &mut Report<'_>,
-) {
+) -> Option<ActionAtom> {
     need(spelling, report);
-    report.uses(Feature::MultiAgent, spelling.span);
-    let Some(id) = world.names.actions.find(spelling.text) else { return };
+    if !bindings.joint {
+        report.uses(Feature::ActionAtoms, spelling.span);
+    }
+    let id = world.names.actions.find(spelling.text)?;
     let signature = &world.domain.signatures[id as usize];
     report.found(spelling, Symbol::at(Namespace::Action, signature.name.span));
-    bindings.arguments(&Callee::action_atom(signature), arguments, span, world, report);
+    let arguments =
+        bindings.arguments(&Callee::action_atom(signature), arguments, span, world, report)?;
+    let action = signature.action.filter(|_| bindings.joint)?;
+    Some(ActionAtom { action, arguments })
 }
 
 /// Whose the predicates of a `(:private …)` are; the parameters of each say at which position.
@@ -209,22 +259,25 @@ pub(super) fn constraints<'a>(
     dependences: &[(Name<'a>, &[Name<'a>])],
     world: &World<'_, 'a>,
     report: &mut Report<'_>,
-) {
-    let mut known: HashMap<String, Span> = HashMap::new();
+) -> (Vec<Constraint>, Vec<(usize, usize)>) {
+    let mut known: HashMap<String, (usize, Span)> = HashMap::new();
+    let (mut constraints, mut pairs) = (Vec::new(), Vec::new());
     for constraint in all {
         report.need(Need::Concurrency, constraint.name.span);
-        report.uses(Feature::MultiAgent, constraint.name.span);
-        if let Some(&first) = known.get(&constraint.name.text.to_ascii_lowercase()) {
+        if let Some(&(_, first)) = known.get(&constraint.name.text.to_ascii_lowercase()) {
             domain::report_duplicate("concurrency constraint", constraint.name, "", first, report);
         }
         report.declared_here(constraint.name, Namespace::Constraint);
-        known.insert(constraint.name.text.to_ascii_lowercase(), constraint.name.span);
+        let place = (constraints.len(), constraint.name.span);
+        known.insert(constraint.name.text.to_ascii_lowercase(), place);
         let mut bindings = Bindings::new(format!("concurrency constraint `{}`", constraint.name));
         bindings.bind(&constraint.parameters, world, report);
-        bounds(&constraint.bounds, report);
+        let (least, most) = bounds(&constraint.bounds, report);
+        let mut actions = Vec::new();
         for participant in &constraint.actions {
-            self::participant(participant, &bindings, world, report);
+            actions.extend(self::participant(participant, &bindings, world, report));
         }
+        constraints.push(Constraint { least, most, actions });
     }
     for &(keyword, names) in dependences {
         report.need(Need::Concurrency, keyword.span);
@@ -232,8 +285,12 @@ pub(super) fn constraints<'a>(
             let expected = "the names of two concurrency constraints";
             report.push(unexpected_item::missing_item(expected, keyword.span));
         }
+        if let [needed, using] = names {
+            let at = |name: &Name<'_>| known.get(&name.text.to_ascii_lowercase());
+            pairs.extend(at(needed).zip(at(using)).map(|(one, other)| (one.0, other.0)));
+        }
         for constraint in names {
-            if let Some(&declared) = known.get(&constraint.text.to_ascii_lowercase()) {
+            if let Some(&(_, declared)) = known.get(&constraint.text.to_ascii_lowercase()) {
                 report.found(*constraint, Symbol::at(Namespace::Constraint, declared));
             } else {
                 report.lost(*constraint, Namespace::Constraint);
@@ -244,12 +301,14 @@ pub(super) fn constraints<'a>(
             }
         }
     }
+    (constraints, pairs)
 }
 
 /// `(LEAST MOST)`, of which the second may be `inf`.
-fn bounds(bounds: &[Name<'_>], report: &mut Report<'_>) {
+fn bounds(bounds: &[Name<'_>], report: &mut Report<'_>) -> (u32, Option<u32>) {
     let number = |bound: &Name<'_>| bound.text.parse::<u32>().ok();
-    let &[least, most] = bounds else { return };
+    let &[least, most] = bounds else { return (1, None) };
+    let meant = (number(&least).unwrap_or(1), number(&most));
     let wrong = match (number(&least), number(&most)) {
         (None, _) => Some(("a whole number of agents", least.span)),
         (_, None) if !most.is("inf") => Some(("a whole number of agents or `inf`", most.span)),
@@ -260,7 +319,9 @@ fn bounds(bounds: &[Name<'_>], report: &mut Report<'_>) {
     };
     if let Some((expected, span)) = wrong {
         report.push(unexpected_item::unexpected_item(expected, span));
+        return (1, None);
     }
+    meant
 }
 
 /// `(ACTION POSITION …)`: there are as many positions as the constraint has parameters, and their types fit.
@@ -269,7 +330,7 @@ fn participant(
     bindings: &Bindings<'_>,
     world: &World<'_, '_>,
     report: &mut Report<'_>,
-) {
+) -> Option<(usize, Vec<usize>)> {
     let action = participant.action;
     let Some(id) = world.names.actions.find(action.text) else {
         report.lost(action, Namespace::Action);
@@ -277,7 +338,7 @@ fn participant(
             let near = report.nearest(action.text, &world.names.actions);
             report.push(unknown_action::unknown_action(action.text, action.span, near));
         }
-        return;
+        return None;
     };
     let signature = &world.domain.signatures[id as usize];
     report.found(action, Symbol::at(Namespace::Action, signature.name.span));
@@ -290,8 +351,9 @@ fn participant(
             participant.positions.len(),
             participant.place.0,
         ));
-        return;
+        return None;
     }
+    let mut positions = Vec::new();
     for (position, parameter) in participant.positions.iter().zip(wanted) {
         let index = position.text.parse::<usize>().ok().and_then(|index| index.checked_sub(shift));
         let Some(argument) = index.and_then(|index| signature.parameters.get(index)) else {
@@ -305,6 +367,7 @@ fn participant(
             ));
             continue;
         };
+        positions.extend(index);
         let fits = argument.types.is_empty()
             || parameter.types.is_empty()
             || world.overlap(&argument.types, &parameter.types);
@@ -317,4 +380,6 @@ fn participant(
             ));
         }
     }
+    let complete = positions.len() == wanted.len();
+    signature.action.filter(|_| complete).map(|id| (id.index(), positions))
 }

@@ -100,7 +100,7 @@ pub(super) fn conjoin(parts: Vec<model::Formula>, span: Span) -> model::Formula 
         let shift = |id: &mut NodeId| id.0 += offset;
         for mut node in part.nodes {
             match &mut node.kind {
-                NodeKind::Atom(_) | NodeKind::Equal(..) => {}
+                NodeKind::Atom(_) | NodeKind::Equal(..) | NodeKind::Action(_) => {}
                 NodeKind::Not(child) | NodeKind::Forall(_, child) | NodeKind::Exists(_, child) => {
                     shift(child);
                 }
@@ -286,8 +286,8 @@ impl<'a> Condition<'_, '_, '_, 'a> {
                         self.bindings,
                         self.world,
                         self.report,
-                    );
-                    None
+                    )
+                    .map(NodeKind::Action)
                 } else {
                     self.bindings
                         .atom(application.name, arguments, span, self.world, self.report)

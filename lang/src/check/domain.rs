@@ -4,7 +4,9 @@ use super::condition::Setting;
 use super::index::Index;
 use super::requirement::{self, Need};
 use super::scope::{self, Bindings};
-use super::{Names, Report, World, action, agents, condition, effect, hierarchy, name, network};
+use super::{
+    Names, Report, World, action, agents, concurrency, condition, effect, hierarchy, name, network,
+};
 use crate::ast::{self, ActionKind, DomainSection, Feature, Head, Name, TypeReference, TypedList};
 use crate::diagnostic::{Diagnostics, derived_effect, duplicate_definition, unknown_type};
 use crate::model::{
@@ -116,7 +118,8 @@ fn rules<'a>(
             _ => {}
         }
     }
-    agents::constraints(&constraints, &dependences, world, report);
+    let (constraints, dependences) = agents::constraints(&constraints, &dependences, world, report);
+    concurrency::impose(&constraints, &dependences, &mut actions);
     (axioms, actions)
 }
 

@@ -133,19 +133,14 @@ fn contents<'a>(
             ProblemSection::Goal(read) => {
                 let (conditions, bindings): &mut (Vec<Formula>, Bindings<'a>) =
                     goal.get_or_insert_with(|| (Vec::new(), Bindings::new("the goal".to_owned())));
-                if let Some(agent) = &read.agent {
-                    agents::agent(agent, bindings, world, state.report);
-                }
+                let agent = read
+                    .agent
+                    .as_ref()
+                    .and_then(|agent| agents::agent(agent, bindings, world, state.report));
                 for formula in &read.formulas {
-                    let setting = Setting::State;
-                    conditions.push(condition::check(
-                        formula,
-                        0,
-                        setting,
-                        bindings,
-                        world,
-                        state.report,
-                    ));
+                    let condition =
+                        condition::check(formula, 0, Setting::State, bindings, world, state.report);
+                    conditions.push(agents::of_each(agent.as_ref(), condition));
                 }
             }
             ProblemSection::Constraints(keyword, formulas) => {
@@ -173,7 +168,14 @@ fn contents<'a>(
             .push(unexpected_item::missing_item("a `(:goal …)` in the problem", problem.name.span));
     }
     for metric in metrics {
-        problem.metric = read_metric(metric, world, report).or(problem.metric.take());
+        let read = read_metric(metric, world, report);
+        let before = problem.metric.take();
+        if let (Some(one), Some(other)) = (&read, &before)
+            && one.function != other.function
+        {
+            report.uses(Feature::Metrics, metric.keyword.span);
+        }
+        problem.metric = read.or(before);
     }
     uninitialised(world.domain, problem, report);
 }
@@ -185,9 +187,8 @@ fn read_metric<'a>(
     report: &mut Report<'_>,
 ) -> Option<Metric> {
     let mut bindings = Bindings::new("the metric".to_owned());
-    if let Some(agent) = &metric.agent {
-        agents::agent(agent, &mut bindings, world, report);
-    }
+    let agent =
+        metric.agent.as_ref().and_then(|agent| agents::agent(agent, &mut bindings, world, report));
     let formula = metric.value.as_ref()?;
     let span = formula.nodes[0].place.0;
     report.metric = true;
@@ -196,14 +197,19 @@ fn read_metric<'a>(
     (report.metric, report.reading) = (false, Reading::Beside);
     value::number(&value, span, "`:metric`", world, report);
     let function = match value {
-        Value::Number(Some(Expression::Function(function, terms))) if terms.is_empty() => function,
+        Value::Number(Some(Expression::Function(function, terms)))
+            if terms.is_empty()
+                || agents::sums(agent.as_ref(), function, &terms, &bindings, world) =>
+        {
+            function
+        }
         Value::Number(_) => {
             report.uses(Feature::Metrics, metric.keyword.span);
             return None;
         }
         _ => return None,
     };
-    if !metric.direction.is("minimize") || metric.agent.is_some() {
+    if !metric.direction.is("minimize") {
         report.uses(Feature::Metrics, metric.keyword.span);
         return None;
     }

@@ -37,6 +37,8 @@ const HIERARCHY: u32 = 1 << 20;
 /// Each file belongs to one agent.
 const FACTORED: u32 = 1 << 21;
 const NETWORK: u32 = 1 << 22;
+/// Private predicates and objects say whose they are.
+const UNFACTORED: u32 = 1 << 23;
 /// Known by name and without meaning for what is checked.
 const OTHER: u32 = 0;
 
@@ -88,7 +90,7 @@ const KNOWN: [(&str, u32); 60] = [
     (":htn", HIERARCHY),
     (":method-preconditions", OTHER),
     (":multi-agent", AGENTS),
-    (":unfactored-privacy", AGENTS),
+    (":unfactored-privacy", AGENTS | UNFACTORED),
     (":factored-privacy", AGENTS | FACTORED),
     (":concurrency-network", NETWORK),
     (":action-expansions", OTHER),
@@ -144,7 +146,7 @@ impl Flags {
 }
 
 /// The flags that the model knows.
-const MODEL: [(u32, Requirement); 22] = [
+const MODEL: [(u32, Requirement); 23] = [
     (STRIPS, Requirement::Strips),
     (TYPING, Requirement::Typing),
     (EQUALITY, Requirement::Equality),
@@ -167,6 +169,7 @@ const MODEL: [(u32, Requirement); 22] = [
     (HIERARCHY, Requirement::Hierarchy),
     (AGENTS, Requirement::MultiAgent),
     (FACTORED, Requirement::FactoredPrivacy),
+    (UNFACTORED, Requirement::UnfactoredPrivacy),
 ];
 
 /// Reads the flags. A misspelt one counts as the one that was probably meant.

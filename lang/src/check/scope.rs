@@ -35,6 +35,8 @@ pub(super) struct Bindings<'a> {
     pub(super) continuous: bool,
     /// Who acts, in MA-PDDL.
     pub(super) acting: Option<Acting>,
+    /// Whether there is a joint action here that action atoms can ask about.
+    pub(super) joint: bool,
 }
 
 /// What a list of variables hid, to be restored at its end.
@@ -53,6 +55,7 @@ impl<'a> Bindings<'a> {
             durative: false,
             continuous: false,
             acting: None,
+            joint: false,
         }
     }
 

@@ -117,6 +117,7 @@ impl Fixpoint<'_> {
             executor: self.executor,
             state: self.state,
             building: Some((self.id, self.relations.as_slice())),
+            joint: None,
         };
         let mut solutions =
             Solutions::new(view, &axiom.scope, (&axiom.body, &rule.query), binding, goals);

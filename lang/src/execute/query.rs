@@ -1,6 +1,7 @@
 //! A formula goes in; for each of its nodes, the variables that are free in it, come out.
 
-use crate::model::{Atom, Formula, NodeId, NodeKind, ObjectId, Term, VariableId};
+use super::strata;
+use crate::model::{ActionAtom, Atom, Formula, NodeId, NodeKind, ObjectId, Term, VariableId};
 
 /// Something that a solution must satisfy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,6 +26,8 @@ impl Goal {
 pub(crate) enum Shape<'a> {
     /// An atom has this truth value.
     Atom(&'a Atom, bool),
+    /// The action stands in the joint action, or does not.
+    Action(NodeId, &'a ActionAtom, bool),
     /// The terms are equal, or are not.
     Equal(Term, Term, bool),
     /// All of them must be, the last one first.
@@ -47,6 +50,7 @@ pub(crate) fn shape(formula: &Formula, goal: Goal) -> Shape<'_> {
     let each = |nodes: &[NodeId]| nodes.iter().rev().map(|&node| Goal::is(node, value)).collect();
     match (formula.kind(node), value) {
         (NodeKind::Atom(atom), value) => Shape::Atom(atom, value),
+        (NodeKind::Action(atom), value) => Shape::Action(node, atom, value),
         (NodeKind::Equal(left, right), value) => Shape::Equal(*left, *right, value),
         (NodeKind::Not(child), value) => Shape::All(vec![Goal::is(*child, !value)]),
         (NodeKind::And(nodes), true) | (NodeKind::Or(nodes), false) => Shape::All(each(nodes)),
@@ -73,6 +77,8 @@ pub(crate) fn shape(formula: &Formula, goal: Goal) -> Shape<'_> {
 pub(crate) struct Query {
     /// For each node the position of its free variables in `sets`.
     free: Vec<u32>,
+    /// For each node whether the formula needs it to be false, counting all that stands above it; empty without action atoms.
+    negative: Vec<bool>,
     /// Sets of variables, sorted; a node shares the set of its child where both are equal.
     sets: Vec<Vec<VariableId>>,
 }
@@ -94,11 +100,19 @@ fn variables(terms: &[Term]) -> Vec<VariableId> {
 impl Query {
     /// Looks through `formula` once.
     pub(crate) fn new(formula: &Formula) -> Self {
-        let mut query =
-            Self { free: Vec::with_capacity(formula.nodes.len()), sets: vec![Vec::new()] };
+        let asks = formula.nodes.iter().any(|node| matches!(node.kind, NodeKind::Action(_)));
+        let uses = if asks { strata::uses(formula) } else { Vec::new() };
+        let mut query = Self {
+            free: Vec::with_capacity(formula.nodes.len()),
+            negative: uses.into_iter().map(|used| !used.value).collect(),
+            sets: vec![Vec::new()],
+        };
         for node in &formula.nodes {
             let set = match &node.kind {
-                NodeKind::Atom(Atom { arguments, .. }) => query.store(variables(arguments)),
+                NodeKind::Atom(Atom { arguments, .. })
+                | NodeKind::Action(ActionAtom { arguments, .. }) => {
+                    query.store(variables(arguments))
+                }
                 NodeKind::Equal(left, right) => query.store(variables(&[*left, *right])),
                 NodeKind::Not(child) => query.free[child.index()],
                 NodeKind::And(children) | NodeKind::Or(children) => query.union(children),
@@ -147,6 +161,11 @@ impl Query {
             }
             Goal::Binds(variable) => binding[variable.index()].is_some(),
         }
+    }
+
+    /// Whether the formula needs the action atom `node` to be false.
+    pub(crate) fn negative(&self, node: NodeId) -> bool {
+        self.negative[node.index()]
     }
 
     /// The variables that are free in `node`, sorted.

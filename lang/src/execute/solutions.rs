@@ -10,7 +10,7 @@ use std::borrow::Cow;
 use super::query::{Goal, Query, Shape, shape};
 use super::relation::Relation;
 use super::state::View;
-use crate::model::{Atom, Formula, NodeKind, ObjectId, Scope, Term, VariableId};
+use crate::model::{ActionAtom, Formula, NodeId, NodeKind, ObjectId, Scope, Term, VariableId};
 
 /// A binding for each variable of a scope, as far as it is known.
 pub(crate) type Binding = Vec<Option<ObjectId>>;
@@ -26,8 +26,8 @@ pub(crate) fn value(term: Term, binding: &[Option<ObjectId>]) -> Option<ObjectId
 /// The ways to go on from one point, of which the first ones have been tried.
 #[derive(Debug)]
 enum Alternatives<'a> {
-    /// The atom is one of these rows of its relation; without a list, one of all rows.
-    Rows { atom: &'a Atom, relation: &'a Relation, rows: Option<&'a [u32]> },
+    /// The arguments of an atom are one of these rows of its relation; without a list, one of all rows.
+    Rows { arguments: &'a [Term], relation: &'a Relation, rows: Option<&'a [u32]> },
     /// The variable is one of these objects.
     Objects { variable: VariableId, objects: Cow<'a, [ObjectId]> },
     /// One of these goals holds.
@@ -197,12 +197,12 @@ impl<'a> Solutions<'a> {
     fn take(&mut self, choice: &mut Choice<'a>) -> bool {
         let next = &mut choice.next;
         match &choice.alternatives {
-            Alternatives::Rows { atom, relation, rows } => {
+            Alternatives::Rows { arguments, relation, rows } => {
                 let count = rows.map_or(relation.len(), <[u32]>::len);
                 while *next < count {
                     let row = rows.map_or(*next as u32, |rows| rows[*next]);
                     *next += 1;
-                    if self.unify(atom, relation.row(row)) {
+                    if self.unify(arguments, relation.row(row)) {
                         return true;
                     }
                     self.undo(choice.trail);
@@ -227,13 +227,11 @@ impl<'a> Solutions<'a> {
         }
     }
 
-    fn unify(&mut self, atom: &Atom, row: &[ObjectId]) -> bool {
-        atom.arguments.iter().zip(row).all(|(&term, &object)| {
-            match (term, value(term, &self.binding)) {
-                (_, Some(known)) => known == object,
-                (Term::Variable(variable), None) => self.bind(variable, object),
-                (Term::Object(_), None) => unreachable!("an object stands for itself"),
-            }
+    fn unify(&mut self, arguments: &[Term], row: &[ObjectId]) -> bool {
+        arguments.iter().zip(row).all(|(&term, &object)| match (term, value(term, &self.binding)) {
+            (_, Some(known)) => known == object,
+            (Term::Variable(variable), None) => self.bind(variable, object),
+            (Term::Object(_), None) => unreachable!("an object stands for itself"),
         })
     }
 
@@ -284,7 +282,16 @@ impl<'a> Solutions<'a> {
                 return !goals.is_empty();
             }
             shape if self.query.closed(&self.binding, goal) => match shape {
-                Shape::Atom(atom, wanted) => return self.contains(atom) == wanted,
+                Shape::Atom(atom, wanted) => {
+                    let relation = self.view.relation(atom.predicate);
+                    return self.contains(&atom.arguments, relation) == wanted;
+                }
+                Shape::Action(node, atom, wanted) => {
+                    let stands = self
+                        .actions(node, atom)
+                        .is_some_and(|relation| self.contains(&atom.arguments, relation));
+                    return stands == wanted;
+                }
                 Shape::Equal(left, right, wanted) => {
                     return (value(left, &self.binding) == value(right, &self.binding)) == wanted;
                 }
@@ -295,14 +302,17 @@ impl<'a> Solutions<'a> {
         true
     }
 
-    fn contains(&mut self, atom: &Atom) -> bool {
-        let objects = atom
-            .arguments
-            .iter()
-            .map(|&term| value(term, &self.binding).expect("the atom is closed"));
+    /// The instances of the atom's action in the joint action; none where there are none.
+    fn actions(&self, node: NodeId, atom: &ActionAtom) -> Option<&'a Relation> {
+        self.view.joint?.relation(atom.action, self.query.negative(node))
+    }
+
+    fn contains(&mut self, arguments: &[Term], relation: &Relation) -> bool {
+        let objects =
+            arguments.iter().map(|&term| value(term, &self.binding).expect("the atom is closed"));
         self.tuple.clear();
         self.tuple.extend(objects);
-        self.view.relation(atom.predicate).contains(&self.tuple)
+        relation.contains(&self.tuple)
     }
 
     /// Asks the question that a closed disjunction or quantifier is; false if it fails at once.
@@ -321,7 +331,7 @@ impl<'a> Solutions<'a> {
                 self.enter(variables, goal);
                 true
             }
-            Shape::Atom(..) | Shape::Equal(..) | Shape::All(_) => {
+            Shape::Atom(..) | Shape::Action(..) | Shape::Equal(..) | Shape::All(_) => {
                 unreachable!("it is decided where it is met")
             }
         }
@@ -360,23 +370,28 @@ impl<'a> Solutions<'a> {
         if going { Progress::Going } else { Progress::Failed }
     }
 
+    /// The rows of `relation` that the arguments may be, and how many they are.
+    fn rows(&self, arguments: &'a [Term], relation: &'a Relation) -> (usize, Alternatives<'a>) {
+        let rows = arguments
+            .iter()
+            .enumerate()
+            .filter_map(|(at, &term)| Some(relation.rows_with(at, value(term, &self.binding)?)))
+            .min_by_key(|rows| rows.len());
+        let cost = rows.map_or(relation.len(), <[u32]>::len);
+        (cost, Alternatives::Rows { arguments, relation, rows })
+    }
+
     /// The rows or the object that can satisfy an atom or an equality, and how many they are.
     fn generator(&self, goal: Goal) -> Option<(usize, Alternatives<'a>)> {
         let Goal::Holds(node) = goal else { return None };
         match self.formula.kind(node) {
             NodeKind::Atom(atom) => {
-                let relation = self.view.relation(atom.predicate);
-                let rows = atom
-                    .arguments
-                    .iter()
-                    .enumerate()
-                    .filter_map(|(at, &term)| {
-                        Some(relation.rows_with(at, value(term, &self.binding)?))
-                    })
-                    .min_by_key(|rows| rows.len());
-                let cost = rows.map_or(relation.len(), <[u32]>::len);
-                Some((cost, Alternatives::Rows { atom, relation, rows }))
+                Some(self.rows(&atom.arguments, self.view.relation(atom.predicate)))
             }
+            NodeKind::Action(atom) => Some(match self.actions(node, atom) {
+                Some(relation) => self.rows(&atom.arguments, relation),
+                None => (0, Alternatives::Goals(Vec::new())),
+            }),
             NodeKind::Equal(left, right) => {
                 let (variable, object) = match (*left, *right) {
                     (Term::Variable(variable), other)

@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
+use super::joint::Acting;
 use super::relation::Relation;
 use super::{Executor, derive};
 use crate::model::{Fact, ObjectId, PredicateId};
@@ -66,6 +67,8 @@ pub(crate) struct View<'a> {
     pub(crate) state: &'a State,
     /// The component that is being derived, as far as it is.
     pub(crate) building: Option<(usize, &'a [Relation])>,
+    /// The joint action that action atoms ask about.
+    pub(crate) joint: Option<Acting<'a>>,
 }
 
 impl<'a> View<'a> {

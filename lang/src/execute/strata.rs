@@ -54,7 +54,7 @@ pub(crate) fn uses(formula: &Formula) -> Vec<Use> {
         let mut set =
             |child: NodeId, value| uses[child.index()] = Use { value, parent: Some(parent) };
         match formula.kind(parent) {
-            NodeKind::Atom(_) | NodeKind::Equal(..) => {}
+            NodeKind::Atom(_) | NodeKind::Equal(..) | NodeKind::Action(_) => {}
             NodeKind::Not(child) => set(*child, !value),
             NodeKind::And(children) | NodeKind::Or(children) => {
                 for &child in children {
@@ -252,7 +252,9 @@ fn beside(body: &Formula, uses: &[Use], atom: NodeId) -> Option<Vec<Goal>> {
                 goals.extend(variables.iter().map(|&variable| Goal::Binds(variable)));
             }
             (NodeKind::Exists(..), false) | (NodeKind::Forall(..), true) => return None,
-            (NodeKind::Atom(_) | NodeKind::Equal(..), _) => unreachable!("it has no children"),
+            (NodeKind::Atom(_) | NodeKind::Equal(..) | NodeKind::Action(_), _) => {
+                unreachable!("it has no children")
+            }
         }
         child = parent;
     }

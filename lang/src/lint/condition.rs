@@ -241,6 +241,10 @@ pub(super) fn fixed(action: &Action, place: Place<'_>, found: &mut Diagnostics) 
             (Term::Object(_), Term::Object(_)) => continue,
         };
         let variable = &place.scope.variables[parameter.index()];
+        // An agent that is named by an object has no variable in the text.
+        if variable.name.span == action.span {
+            continue;
+        }
         found.push(fixed_parameter::fixed_parameter(
             &variable.name.text,
             place.describe(other),
@@ -278,6 +282,7 @@ impl Named {
             match &node.kind {
                 NodeKind::Atom(atom) => self.terms(&atom.arguments),
                 NodeKind::Equal(left, right) => self.terms([left, right]),
+                NodeKind::Action(atom) => self.terms(&atom.arguments),
                 NodeKind::Forall(variables, _) | NodeKind::Exists(variables, _) => {
                     self.bind(variables, node.span);
                 }

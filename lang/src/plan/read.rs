@@ -5,7 +5,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::{Plan, Step};
+use super::{JointPlan, Plan, Step};
 use crate::diagnostic::plan_step_order::plan_step_order;
 use crate::diagnostic::plan_syntax::plan_syntax;
 use crate::diagnostic::plan_type_mismatch::plan_type_mismatch;
@@ -24,6 +24,29 @@ pub struct Listing {
     pub plan: Plan,
     /// Where each of these steps stands.
     pub spans: Vec<Span>,
+    /// For each step the number of the moment that it belongs to, counted from 0: steps with the same time, or without times those of one line.
+    pub moments: Vec<usize>,
+}
+
+impl Listing {
+    /// The steps of each moment as one joint step, and their spans.
+    pub fn joint(&self) -> (JointPlan, Vec<Vec<Span>>) {
+        let count = self.moments.last().map_or(0, |last| last + 1);
+        let (mut plan, mut spans) = (JointPlan::default(), vec![Vec::new(); count]);
+        plan.steps.resize(count, Vec::new());
+        for ((step, &span), &moment) in self.plan.steps.iter().zip(&self.spans).zip(&self.moments) {
+            plan.steps[moment].push(step.clone());
+            spans[moment].push(span);
+        }
+        (plan, spans)
+    }
+}
+
+/// What tells one moment from the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Moment {
+    Time(f64),
+    Line(u32),
 }
 
 /// Reads the plan file `id`. When a diagnostic is an error, a step is missing from the listing.
@@ -41,6 +64,7 @@ pub fn read(
         at: 0,
         resolver: Resolver::new(domain, problem),
         last_time: None,
+        last_moment: None,
         listing: Listing::default(),
         diagnostics: Diagnostics::default(),
     };
@@ -117,6 +141,7 @@ struct Reader<'a> {
     at: usize,
     resolver: Resolver<'a>,
     last_time: Option<(f64, Span)>,
+    last_moment: Option<Moment>,
     listing: Listing,
     diagnostics: Diagnostics,
 }
@@ -245,6 +270,12 @@ impl<'a> Reader<'a> {
         {
             self.listing.plan.steps.push(step);
             self.listing.spans.push(span);
+            let time = self.last_time.map(|(time, _)| Moment::Time(time));
+            let moment = time.unwrap_or(Moment::Line(open.line));
+            let last = self.listing.moments.last().copied();
+            let same = self.last_moment == Some(moment);
+            self.listing.moments.push(last.map_or(0, |last| last + usize::from(!same)));
+            self.last_moment = Some(moment);
         }
     }
 

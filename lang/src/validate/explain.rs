@@ -1,10 +1,11 @@
 //! A condition that is false goes in; its false parts, and the steps that made them so, come out.
 
 use super::words::Words;
-use super::{Place, Run};
+use crate::execute::joint::Acting;
 use crate::execute::query::{Goal, Query, Shape, shape};
-use crate::execute::{bind, ground, value};
+use crate::execute::{Change, Executor, State, View, ground, instance, value};
 use crate::model::{Fact, Formula, NodeId, ObjectId, Scope};
+use crate::plan::Step;
 use crate::source::Span;
 
 /// Disjunctions nested deeper than this are told as a whole.
@@ -45,6 +46,13 @@ pub enum What {
         /// The last step since which it holds; none if it held from the beginning.
         since: Option<usize>,
     },
+    /// The action must stand in the joint action and does not, or must not and does.
+    Action {
+        /// The action.
+        step: Step,
+        /// Whether it must.
+        wanted: bool,
+    },
     /// Two terms must be the same object and are these.
     Different {
         /// The condition as it is written.
@@ -68,31 +76,31 @@ pub enum What {
     },
 }
 
-/// The false parts of the condition at `place`, in the order of the text.
-pub(super) fn parts(run: &Run<'_>, place: Place) -> Vec<Part> {
-    let problem = run.executor.problem();
-    let (scope, formula, binding) = match place {
-        Place::Step(at) => {
-            let step = &run.plan.steps[at];
-            let action = &run.executor.domain().actions[step.action.index()];
-            (&action.scope, &action.precondition, bind(&action.scope, step))
-        }
-        Place::Goal => {
-            let scope = &problem.goal_scope;
-            (scope, &problem.goal, vec![None; scope.variables.len()])
-        }
-    };
-    let query = Query::new(formula);
-    let mut explainer = Explainer { run, scope, formula, query: &query, evaluations: EVALUATIONS };
-    let mut parts = explainer.parts(Goal::Holds(formula.root()), binding, 0);
-    date(run, &mut parts);
+/// A condition that is false, and where.
+pub(super) struct Site<'a> {
+    pub(super) executor: &'a Executor<'a>,
+    /// The state in which it is false.
+    pub(super) state: &'a State,
+    /// What each step has changed up to there.
+    pub(super) history: &'a [Change],
+    pub(super) scope: &'a Scope,
+    pub(super) formula: &'a Formula,
+    pub(super) binding: Vec<Option<ObjectId>>,
+    /// The joint action that it may ask about.
+    pub(super) joint: Option<Acting<'a>>,
+}
+
+/// The false parts of the condition at `site`, in the order of the text.
+pub(super) fn parts(site: &Site<'_>) -> Vec<Part> {
+    let query = Query::new(site.formula);
+    let mut explainer = Explainer { site, query: &query, evaluations: EVALUATIONS };
+    let mut parts = explainer.parts(Goal::Holds(site.formula.root()), site.binding.clone(), 0);
+    date(site, &mut parts);
     parts
 }
 
 struct Explainer<'a> {
-    run: &'a Run<'a>,
-    scope: &'a Scope,
-    formula: &'a Formula,
+    site: &'a Site<'a>,
     query: &'a Query,
     evaluations: usize,
 }
@@ -111,8 +119,8 @@ impl Explainer<'_> {
             let (Goal::Holds(node) | Goal::Fails(node)) = goal else {
                 unreachable!("a part is a node")
             };
-            let span = self.formula.nodes[node.index()].span;
-            let what = match shape(self.formula, goal) {
+            let span = self.site.formula.nodes[node.index()].span;
+            let what = match shape(self.site.formula, goal) {
                 Shape::All(goals) => {
                     let alone = goals.len() == 1;
                     for goal in goals {
@@ -130,6 +138,10 @@ impl Explainer<'_> {
                     continue;
                 }
                 Shape::Atom(atom, wanted) => self.atom(ground(atom, &binding), wanted),
+                Shape::Action(_, atom, wanted) => {
+                    let arguments = instance(&atom.arguments, &binding);
+                    What::Action { step: Step { action: atom.action, arguments }, wanted }
+                }
                 Shape::Equal(left, right, wanted) => {
                     let object = |term| value(term, &binding).expect("the condition is closed");
                     let text = self.text(goal, node, &vec![None; binding.len()]);
@@ -159,9 +171,9 @@ impl Explainer<'_> {
     }
 
     fn text(&self, goal: Goal, node: NodeId, binding: &[Option<ObjectId>]) -> String {
-        let words =
-            Words { domain: self.run.executor.domain(), problem: self.run.executor.problem() };
-        let text = words.formula(self.scope, self.formula, node, binding);
+        let executor = self.site.executor;
+        let words = Words { domain: executor.domain(), problem: executor.problem() };
+        let text = words.formula(self.site.scope, self.site.formula, node, binding);
         if matches!(goal, Goal::Fails(_)) { format!("(not {text})") } else { text }
     }
 
@@ -169,20 +181,28 @@ impl Explainer<'_> {
     fn holds(&mut self, goal: Goal, binding: &[Option<ObjectId>]) -> bool {
         let Some(left) = self.evaluations.checked_sub(1) else { return false };
         self.evaluations = left;
-        let formula = (self.formula, self.query);
-        let executor = self.run.executor;
-        executor
-            .solutions(&self.run.state, self.scope, formula, binding.to_vec(), vec![goal])
+        let formula = (self.site.formula, self.query);
+        self.site
+            .executor
+            .solutions(self.view(), self.site.scope, formula, binding.to_vec(), vec![goal])
             .advance()
     }
 
     fn witness(&self, goals: Vec<Goal>, binding: &[Option<ObjectId>]) -> Binding {
-        let formula = (self.formula, self.query);
-        let executor = self.run.executor;
-        let mut solutions =
-            executor.solutions(&self.run.state, self.scope, formula, binding.to_vec(), goals);
+        let formula = (self.site.formula, self.query);
+        let mut solutions = self.site.executor.solutions(
+            self.view(),
+            self.site.scope,
+            formula,
+            binding.to_vec(),
+            goals,
+        );
         assert!(solutions.advance(), "a universal condition that is false has a counterexample");
         solutions.binding().to_vec()
+    }
+
+    fn view(&self) -> View<'_> {
+        View { joint: self.site.joint, ..self.site.executor.view(self.site.state) }
     }
 
     fn atom(&self, fact: Fact, wanted: bool) -> What {
@@ -192,7 +212,7 @@ impl Explainer<'_> {
 
     /// The last step that made `fact` hold, or not hold if it is `wanted`; nothing of derived facts yet.
     fn since(&self, fact: &Fact, wanted: bool) -> Option<usize> {
-        self.run.history.iter().rposition(|change| {
+        self.site.history.iter().rposition(|change| {
             let facts = if wanted { &change.deleted } else { &change.added };
             facts.contains(fact)
         })
@@ -200,8 +220,8 @@ impl Explainer<'_> {
 }
 
 /// Dates the derived facts among `parts`: goes back through the states until each is no longer what it is in the last one.
-fn date(run: &Run<'_>, parts: &mut [Part]) {
-    let Run { executor, history, .. } = run;
+fn date(site: &Site<'_>, parts: &mut [Part]) {
+    let Site { executor, history, .. } = site;
     let mut open = Vec::new();
     let mut lists = vec![parts];
     while let Some(parts) = lists.pop() {
@@ -210,12 +230,12 @@ fn date(run: &Run<'_>, parts: &mut [Part]) {
                 What::Missing { fact, since } => open.push((fact, since, true)),
                 What::Forbidden { fact, since } => open.push((fact, since, false)),
                 What::Unmet { parts, .. } => lists.push(parts),
-                What::Different { .. } | What::Same { .. } => {}
+                What::Different { .. } | What::Same { .. } | What::Action { .. } => {}
             }
         }
     }
     open.retain(|(fact, ..)| executor.domain().predicates[fact.predicate.index()].derived);
-    let mut state = run.state.clone();
+    let mut state = site.state.clone();
     let limit = executor.work() + WORK;
     for (at, change) in history.iter().enumerate().rev() {
         if open.is_empty() || executor.work() > limit {

@@ -95,7 +95,7 @@ fn gather(parts: &[Part], needs: &mut Vec<(Fact, bool)>, culprits: &mut Vec<usiz
                 culprits.extend(since);
             }
             What::Unmet { parts, .. } => gather(parts, needs, culprits),
-            What::Different { .. } | What::Same { .. } => {}
+            What::Different { .. } | What::Same { .. } | What::Action { .. } => {}
         }
     }
 }
@@ -242,8 +242,10 @@ impl Search<'_> {
             goals.push(Goal::Holds(action.precondition.root()));
             let query = Query::new(&action.precondition);
             let formula = (&action.precondition, &query);
-            let mut solutions =
-                self.executor.solutions(state, scope, formula, binding, goals).within(SEARCH);
+            let mut solutions = self
+                .executor
+                .solutions(self.executor.view(state), scope, formula, binding, goals)
+                .within(SEARCH);
             let mut found = 0;
             while found < INSTANCES && solutions.advance() {
                 let parameters = &solutions.binding()[..scope.parameters as usize];

@@ -2,11 +2,10 @@
 
 use std::fmt::Write;
 
-use super::explain::MOST;
-use super::words::{Words, list};
-use super::{Cause, Failure, Part, Place, Repair, Success, Verdict, What};
+use super::told::Told;
+use super::words::Words;
+use super::{Cause, Failure, Place, Repair, Success, Verdict};
 use crate::diagnostic::{Diagnostic, Label, plan_misses_goal, plan_step_fails};
-use crate::execute::Misfit;
 use crate::model::{Domain, Problem};
 use crate::plan::{self, Plan};
 use crate::source::Span;
@@ -39,7 +38,7 @@ pub fn story(verdict: &Verdict, domain: &Domain, problem: &Problem, plan: &Plan)
         Verdict::Invalid(failure) => {
             let mut text = format!("The plan fails {}.\n", teller.headline(failure));
             if let Cause::False(parts) = &failure.cause {
-                teller.list(&mut text, parts, 1);
+                teller.told(|told| told.list(&mut text, parts, 1));
             }
             if let Some(repair) = teller.repair(failure) {
                 writeln!(text, "Repair: {repair}.")
@@ -63,7 +62,10 @@ impl Failure {
         let mut labels = match &self.cause {
             Cause::False(parts) => parts
                 .iter()
-                .map(|part| Label { span: part.span, text: teller.part(part, false) })
+                .map(|part| Label {
+                    span: part.span,
+                    text: teller.told(|told| told.part(part, false)),
+                })
                 .collect(),
             Cause::Misfit(_) | Cause::Undefined(_) => {
                 vec![Label { span: self.span, text: String::new() }]
@@ -99,6 +101,11 @@ impl Teller<'_> {
         format!("step {} {}", at + 1, plan::line(step, self.words.domain, self.words.problem))
     }
 
+    /// Tells false parts with the steps of this plan.
+    fn told<T>(&self, tell: impl FnOnce(Told<'_>) -> T) -> T {
+        tell(Told { words: self.words, step: &|at| self.step(at) })
+    }
+
     /// Where the plan fails and of what.
     fn headline(&self, failure: &Failure) -> String {
         let Place::Step(at) = failure.place else {
@@ -107,83 +114,10 @@ impl Teller<'_> {
         let step = self.step(at);
         let reason = match &failure.cause {
             Cause::False(_) => "its precondition does not hold".to_owned(),
-            Cause::Misfit(misfit) => self.misfit(at, *misfit),
-            Cause::Undefined(undefined) => {
-                let name = &self.words.domain.functions[undefined.function.index()].name.text;
-                let objects = undefined.arguments.iter().map(|&object| self.words.object(object));
-                format!("its cost needs {}, which has no value", list(name, objects))
-            }
+            Cause::Misfit(misfit) => self.words.misfit(&self.plan.steps[at], *misfit),
+            Cause::Undefined(undefined) => self.words.undefined(undefined),
         };
         format!("at {step}: {reason}")
-    }
-
-    fn misfit(&self, at: usize, misfit: Misfit) -> String {
-        let step = &self.plan.steps[at];
-        let scope = &self.words.domain.actions[step.action.index()].scope;
-        match misfit {
-            Misfit::Count(count) => {
-                format!("it has {count} arguments, and its action {} parameters", scope.parameters)
-            }
-            Misfit::Type(position) => {
-                let parameter = &scope.variables[position];
-                format!(
-                    "{} is not of type {}, as {} must be",
-                    self.words.object(step.arguments[position]),
-                    self.words.types(&parameter.types),
-                    parameter.name.text,
-                )
-            }
-        }
-    }
-
-    fn list(&self, text: &mut String, parts: &[Part], depth: usize) {
-        for part in parts {
-            let line = self.part(part, depth > 1);
-            writeln!(text, "{:indent$}{line}", "", indent = depth * 2)
-                .expect("a string takes all that is written to it");
-            if let What::Unmet { parts, .. } = &part.what {
-                self.list(text, parts, depth + 1);
-            }
-        }
-        if parts.len() == MOST {
-            writeln!(text, "{:indent$}…", "", indent = depth * 2)
-                .expect("a string takes all that is written to it");
-        }
-    }
-
-    /// A false part in words; as one of several alternatives it is not said what it must be.
-    fn part(&self, part: &Part, alternative: bool) -> String {
-        match &part.what {
-            What::Missing { fact, since } => {
-                let derived = self.words.domain.predicates[fact.predicate.index()].derived;
-                let cause = match since {
-                    Some(at) if derived => format!("no rule derives it since {}", self.step(*at)),
-                    Some(at) => format!("{} deleted it", self.step(*at)),
-                    None if derived => "no rule derives it".to_owned(),
-                    None => "it was never true".to_owned(),
-                };
-                format!("{} is false: {cause}", self.words.fact(fact))
-            }
-            What::Forbidden { fact, since } => {
-                let derived = self.words.domain.predicates[fact.predicate.index()].derived;
-                let cause = match since {
-                    Some(at) if derived => format!("a rule derives it since {}", self.step(*at)),
-                    Some(at) => format!("{} added it", self.step(*at)),
-                    None if derived => "a rule derives it".to_owned(),
-                    None => "it held from the beginning".to_owned(),
-                };
-                let must = if alternative { "" } else { " and must be false" };
-                format!("{} is true{must}: {cause}", self.words.fact(fact))
-            }
-            What::Different { text, objects: [left, right] } => {
-                let (left, right) = (self.words.object(*left), self.words.object(*right));
-                format!("{text} is false: {left} and {right} are two objects")
-            }
-            What::Same { text, object } => {
-                format!("{text} is false: both are {}", self.words.object(*object))
-            }
-            What::Unmet { text, .. } => format!("{text} does not hold"),
-        }
     }
 
     fn repair(&self, failure: &Failure) -> Option<String> {

@@ -1,10 +1,11 @@
 //! Facts, steps and conditions go in; the text by which messages speak of them comes out.
 
-use crate::execute::value;
+use crate::execute::{Misfit, Undefined, value};
 use crate::model::{
-    Atom, Domain, Fact, Formula, NodeId, NodeKind, ObjectId, Problem, Scope, Term, TypeId,
-    VariableId,
+    ActionAtom, Atom, Domain, Fact, Formula, NodeId, NodeKind, ObjectId, Problem, Scope, Term,
+    TypeId, VariableId,
 };
+use crate::plan::Step;
 
 /// Conditions longer than this many bytes are cut.
 const LONGEST: usize = 200;
@@ -31,6 +32,32 @@ impl Words<'_> {
         let names: Vec<_> =
             types.iter().map(|id| self.domain.types[id.index()].name.text.as_str()).collect();
         names.join(" or ")
+    }
+
+    /// Why a step is not an instance of its action.
+    pub(super) fn misfit(self, step: &Step, misfit: Misfit) -> String {
+        let scope = &self.domain.actions[step.action.index()].scope;
+        match misfit {
+            Misfit::Count(count) => {
+                format!("it has {count} arguments, and its action {} parameters", scope.parameters)
+            }
+            Misfit::Type(position) => {
+                let parameter = &scope.variables[position];
+                format!(
+                    "{} is not of type {}, as {} must be",
+                    self.object(step.arguments[position]),
+                    self.types(&parameter.types),
+                    parameter.name.text,
+                )
+            }
+        }
+    }
+
+    /// What a cost lacks.
+    pub(super) fn undefined(self, undefined: &Undefined) -> String {
+        let name = &self.domain.functions[undefined.function.index()].name.text;
+        let objects = undefined.arguments.iter().map(|&object| self.object(object));
+        format!("its cost needs {}, which has no value", list(name, objects))
     }
 
     /// The node as PDDL, with what is bound in place of variables.
@@ -70,6 +97,10 @@ impl Words<'_> {
             match formula.kind(node) {
                 NodeKind::Atom(Atom { predicate, arguments }) => {
                     let name = &self.domain.predicates[predicate.index()].name.text;
+                    text.push_str(&list(name, arguments.iter().map(term)));
+                }
+                NodeKind::Action(ActionAtom { action, arguments }) => {
+                    let name = &self.domain.actions[action.index()].name.text;
                     text.push_str(&list(name, arguments.iter().map(term)));
                 }
                 NodeKind::Equal(left, right) => {

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use lang::ast::Feature::{
-    self, Axioms, Constraints, DurativeActions, Hierarchies, Metrics, MultiAgent,
-    NumericConditions, NumericEffects, ObjectFluents, Preferences, Processes, TimedLiterals,
+    self, Axioms, Constraints, DurativeActions, Hierarchies, Metrics, NumericConditions,
+    NumericEffects, ObjectFluents, Preferences, Processes, TimedLiterals,
 };
 use lang::lexer::{self, TokenKind};
 use lang::model::{Domain, Problem};
@@ -135,7 +135,7 @@ fn processes_and_events() {
 #[test]
 fn agents_of_all_four_forms() {
     let read = right(include_str!("agents-domain.pddl"), include_str!("agents-problem.pddl"));
-    assert_eq!(features(&read), [MultiAgent, Metrics]);
+    assert_eq!(features(&read), [Metrics]);
     let agents = read.domain.signatures.iter().map(|one| (one.agent, one.parameters.len()));
     let wanted = [(true, 2), (true, 2), (true, 2), (true, 2), (false, 1)];
     assert_eq!(agents.collect::<Vec<_>>(), wanted);
@@ -144,7 +144,7 @@ fn agents_of_all_four_forms() {
 #[test]
 fn private_parts_and_concurrency_constraints() {
     let read = right(include_str!("private-domain.pddl"), include_str!("private-problem.pddl"));
-    assert_eq!(features(&read), [MultiAgent]);
+    assert_eq!(features(&read), []);
     let holds = read.domain.predicates[1].owner.as_ref().expect("it is private");
     assert_eq!(holds.position, Some(0));
     let objects: Vec<&str> =
@@ -155,7 +155,7 @@ fn private_parts_and_concurrency_constraints() {
 #[test]
 fn the_share_of_one_agent() {
     let read = right(include_str!("factored-domain.pddl"), include_str!("factored-problem.pddl"));
-    assert_eq!(features(&read), [MultiAgent]);
+    assert_eq!(features(&read), []);
     assert_eq!(read.problem.objects.len(), 3);
 }
 

@@ -135,6 +135,7 @@ impl<'a> Naive<'a> {
             |child: NodeId, binding: &Binding| self.holds(facts, scope, formula, child, binding);
         match formula.kind(node) {
             NodeKind::Atom(atom) => facts.contains(&ground(atom, binding)),
+            NodeKind::Action(_) => panic!("nothing here asks about joint actions"),
             NodeKind::Equal(left, right) => object(*left, binding) == object(*right, binding),
             NodeKind::Not(child) => !below(*child, binding),
             NodeKind::And(children) => children.iter().all(|&child| below(child, binding)),
@@ -304,7 +305,7 @@ fn occurrences(formula: &Formula, node: NodeId, positive: bool) -> Vec<(Predicat
     let below = |child: &NodeId, positive| occurrences(formula, *child, positive);
     match formula.kind(node) {
         NodeKind::Atom(atom) => vec![(atom.predicate, positive)],
-        NodeKind::Equal(..) => Vec::new(),
+        NodeKind::Equal(..) | NodeKind::Action(_) => Vec::new(),
         NodeKind::Not(child) => below(child, !positive),
         NodeKind::And(children) | NodeKind::Or(children) => {
             children.iter().flat_map(|child| below(child, positive)).collect()

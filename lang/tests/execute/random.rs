@@ -208,7 +208,15 @@ fn action(at: usize, arities: &[usize], tape: &mut Tape) -> Action {
         })
         .collect();
     let name = name(format!("a{at}"));
-    Action { name, scope: builder.scope, precondition, effects, increases, span: SPAN }
+    Action {
+        name,
+        scope: builder.scope,
+        agent: false,
+        precondition,
+        effects,
+        increases,
+        span: SPAN,
+    }
 }
 
 fn functions() -> Vec<Function> {

@@ -63,7 +63,7 @@ impl Fixture {
 
     /// The failure of a plan as a diagnostic.
     pub fn diagnostic(&mut self, text: &str) -> String {
-        let (Listing { plan, spans }, notes) = self.plan(text);
+        let (Listing { plan, spans, .. }, notes) = self.plan(text);
         assert_eq!(notes, "", "the plan can be read");
         let Verdict::Invalid(failure) = judge(&self.executor(), &plan) else {
             panic!("the plan is valid")

@@ -42,6 +42,7 @@ fn convert(formula: &Formula, id: NodeId, positive: bool, predicates: &[Predicat
         NodeKind::Equal(left, right) => {
             Nnf::Filter(signed(Filter::Equal(term(*left), term(*right)), positive))
         }
+        NodeKind::Action(_) => unreachable!("what asks about joint actions is refused before"),
         NodeKind::Not(child) => convert(formula, *child, !positive, predicates),
         NodeKind::And(ids) if positive => all(children(ids)),
         NodeKind::And(ids) => any(children(ids)),

@@ -23,8 +23,6 @@
     (inHand ?bot ?a)
     (closed ?bot ?l)
     (exists (?b - agent) (unscrew ?b ?l ?bot)))
-  :effect (and
-    (inHand ?bot ?a)
-    (not (closed ?bot ?l)))
+  :effect (not (closed ?bot ?l))
 )
 )
