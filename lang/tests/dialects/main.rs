@@ -135,7 +135,7 @@ fn processes_and_events() {
 #[test]
 fn agents_of_all_four_forms() {
     let read = right(include_str!("agents-domain.pddl"), include_str!("agents-problem.pddl"));
-    assert_eq!(features(&read), [Metrics]);
+    assert_eq!(features(&read), []);
     let agents = read.domain.signatures.iter().map(|one| (one.agent, one.parameters.len()));
     let wanted = [(true, 2), (true, 2), (true, 2), (true, 2), (false, 1)];
     assert_eq!(agents.collect::<Vec<_>>(), wanted);
