@@ -148,6 +148,37 @@ pub struct Fmt {
     pub stdin: bool,
 }
 
+/// What a good joint plan has little of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ObjectiveName {
+    /// Joint steps.
+    Steps,
+    /// Actions, of all agents.
+    Actions,
+    /// What the metric counts, summed over all actions.
+    Cost,
+}
+
+/// How much the parts of a joint step may have to do with one another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ConcurrencyName {
+    /// What action atoms do not forbid is allowed.
+    Liberal,
+    /// No part may destroy the precondition of another.
+    Safe,
+}
+
+/// How a joint plan is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum JointFormat {
+    /// One joint step a line.
+    Steps,
+    /// A picture: one row for each agent, one column for each joint step.
+    Gantt,
+    /// One JSON document.
+    Json,
+}
+
 /// `caveat plan`.
 #[derive(Debug, Args)]
 #[command(override_usage = "caveat plan [OPTIONS] [DOMAIN] PROBLEM", arg_required_else_help = true, after_help = plan_help())]
@@ -168,6 +199,19 @@ pub struct Plan {
     /// Search with this heuristic; see --list.
     #[arg(long, value_name = "NAME")]
     pub heuristic: Option<String>,
+    /// Several agents: what a good joint plan has little of. By default what the metric counts, and without one joint steps.
+    #[arg(long, value_name = "WHAT")]
+    pub objective: Option<ObjectiveName>,
+    /// Several agents: whether a part of a joint step may destroy the precondition of another. By default only where action atoms
+    /// say what excludes what.
+    #[arg(long, value_name = "MODE")]
+    pub concurrency: Option<ConcurrencyName>,
+    /// Several agents: how many actions a joint step has at most.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub joint_size: Option<u32>,
+    /// Several agents: how the joint plan is printed.
+    #[arg(long, value_name = "FORMAT", default_value = "steps")]
+    pub joint_format: JointFormat,
     /// CPU time to use at most, such as 30s, 5m or 1h.
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub time_limit: Option<Duration>,

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use lang::model::{Domain, Problem};
 use lang::plan::Plan;
-use planner::encode::{self, Encoded};
+use planner::encode::{self, Decoder, Encoded};
 use planner::ground::{self, Outcome};
 use planner::grounded::Grounded;
 use planner::invariants;
@@ -14,6 +14,7 @@ use planner::limits::Stop;
 use planner::normalize::{self, Unsupported};
 use planner::sas::write::Names;
 use planner::search::{self, Config, Statistics, Status};
+use planner::task::OperatorId;
 
 use crate::limits::{Watch, cpu_time};
 
@@ -26,6 +27,13 @@ pub struct Task {
     pub grounded: Grounded,
     /// What its parts are called.
     pub names: Names,
+}
+
+/// A task to be searched, and the way back from its operators.
+#[derive(Debug)]
+pub struct Ready {
+    task: planner::task::Task,
+    decoder: Decoder,
 }
 
 /// Why there is no ground task.
@@ -70,14 +78,20 @@ pub fn ground(domain: &Domain, problem: &Problem, watch: &Watch) -> Result<Task,
     Ok(Task { encoded, grounded, names: Names::new(domain, problem, &normal) })
 }
 
-/// Searches a ground task; every plan that is cheaper than those before goes to `found`.
-pub fn search(task: Task, config: &Config, watch: &Watch, mut found: impl FnMut(Plan)) -> End {
-    let decoder = task.encoded.decoder(task.grounded);
+impl Task {
+    /// Leaves only what search needs.
+    pub fn ready(self) -> Ready {
+        let decoder = self.encoded.decoder(self.grounded);
+        Ready { task: self.encoded.task, decoder }
+    }
+}
+
+/// Searches a task; every plan that is cheaper than those before goes to `found`.
+pub fn search(ready: &Ready, config: &Config, watch: &Watch, mut found: impl FnMut(Plan)) -> End {
     watch.searching();
     let start = cpu_time();
-    let mut on_plan =
-        |operators: &[planner::task::OperatorId], _: u64| found(decoder.plan(operators));
-    let outcome = search::run(&task.encoded.task, config, &watch.limits, &mut on_plan);
+    let mut on_plan = |operators: &[OperatorId], _: u64| found(ready.decoder.plan(operators));
+    let outcome = search::run(&ready.task, config, &watch.limits, &mut on_plan);
     End {
         status: outcome.status,
         optimal: outcome.optimal,

@@ -1,7 +1,8 @@
 //! `caveat plan`: a domain and a problem go in; a plan file, Fast Downward's lines and its exit code come out.
 
-use std::fs;
-use std::path::PathBuf;
+mod desk;
+mod joint;
+
 use std::str::FromStr;
 
 use lang::execute::Executor;
@@ -13,12 +14,13 @@ use planner::search::{self, Config, Status, Strategy};
 
 use crate::args;
 use crate::exit::Exit;
-use crate::files::{self, Complaint};
+use crate::files::Complaint;
 use crate::input::{self, Input, Reader};
 use crate::limits::{Allowance, Watch, cpu_time, peak_memory};
 use crate::pipeline::{self, End, Obstacle};
 use crate::progress::Progress;
 use crate::terminal::Terminal;
+use desk::Desk;
 
 /// Plans, or lists what it can plan with.
 pub fn run(arguments: &args::Plan, terminal: &mut Terminal) -> Exit {
@@ -52,6 +54,9 @@ pub fn run(arguments: &args::Plan, terminal: &mut Terminal) -> Exit {
     };
     let allowance = Allowance { time: arguments.time_limit, memory: arguments.memory_limit };
     let watch = Watch::start(allowance, true);
+    if input.domain.is_multi_agent() {
+        return joint::run(arguments, strategy, &input, &executor, &watch, terminal);
+    }
     let progress = Progress::start(terminal.watched);
     progress.phase("grounding");
     let task = match pipeline::ground(&input.domain, &input.problem, &watch) {
@@ -64,30 +69,24 @@ pub fn run(arguments: &args::Plan, terminal: &mut Terminal) -> Exit {
     let config = Config {
         strategy,
         anytime: arguments.anytime,
+        budget: None,
         seed: arguments.seed,
         progress: Some(progress.counters()),
     };
     let unit_cost = task.encoded.task.operators.iter().all(|operator| operator.cost == 1);
-    let mut desk = Desk {
-        arguments,
-        input: &input,
-        executor,
-        watch: &watch,
-        unit_cost,
-        written: 0,
-        failure: None,
-    };
+    let mut desk = Desk::new(arguments, &watch);
     if let Err(complaint) = desk.clear() {
         drop(progress);
         terminal.say(complaint);
         return Exit::Input;
     }
+    let mut judge = Judge { input: &input, executor, unit_cost };
     progress.phase("searching");
-    let end = pipeline::search(task, &config, &watch, |plan| {
-        progress.suspend(|| desk.take(&plan, terminal));
+    let end = pipeline::search(&task.ready(), &config, &watch, |plan| {
+        progress.suspend(|| judge.take(&plan, &mut desk, terminal));
     });
     drop(progress);
-    let (written, failure) = (desk.written > 0, desk.failure);
+    let (written, failure) = (desk.written() > 0, desk.failure);
     failure.unwrap_or_else(|| conclude(&end, written, arguments.anytime, &watch, terminal))
 }
 
@@ -218,98 +217,34 @@ fn conclude(end: &End, found: bool, anytime: bool, watch: &Watch, terminal: &mut
             terminal.line("There is no plan: all reachable states were looked at.");
             Exit::Exhausted
         }
-        Status::Incomplete => {
+        Status::Incomplete | Status::Spent => {
             terminal.line("No plan was found, which does not prove that there is none.");
             Exit::Incomplete
         }
     }
 }
 
-/// Checks every plan and writes it.
-struct Desk<'a> {
-    arguments: &'a args::Plan,
+/// Checks every plan before it is written.
+struct Judge<'a> {
     input: &'a Input,
     executor: Executor<'a>,
-    watch: &'a Watch,
     /// Whether every operator costs 1.
     unit_cost: bool,
-    written: usize,
-    /// The first thing that went wrong.
-    failure: Option<Exit>,
 }
 
-impl Desk<'_> {
-    /// Removes plans of earlier runs, so that none of them is taken for one of this run.
-    fn clear(&self) -> Result<(), Complaint> {
-        let file = &self.arguments.plan_file;
-        let Some(name) = file.file_name().and_then(|name| name.to_str()) else {
-            return Err(Complaint::new(format!("`{}` is no name for a plan file", file.display())));
-        };
-        let entries = fs::read_dir(files::folder(file)).into_iter().flatten().flatten();
-        for entry in entries {
-            let entry_name = entry.file_name();
-            let rest = entry_name.to_str().and_then(|entry| entry.strip_prefix(name));
-            let is_plan = rest.is_some_and(|rest| {
-                rest.is_empty()
-                    || rest.strip_prefix('.').is_some_and(|number| number.parse::<u32>().is_ok())
-            });
-            if is_plan && entry.path().is_file() {
-                fs::remove_file(entry.path()).map_err(|error| {
-                    Complaint::new(format!(
-                        "the old plan `{}` cannot be removed: {error}",
-                        entry.path().display()
-                    ))
-                })?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Where the next plan goes.
-    fn path(&self) -> PathBuf {
-        let file = &self.arguments.plan_file;
-        if !self.arguments.anytime {
-            return file.clone();
-        }
-        let mut name = file.clone().into_os_string();
-        name.push(format!(".{}", self.written + 1));
-        PathBuf::from(name)
-    }
-
+impl Judge<'_> {
     /// Validates, writes and prints a plan.
-    fn take(&mut self, plan: &Plan, terminal: &mut Terminal) {
+    fn take(&mut self, plan: &Plan, desk: &mut Desk<'_>, terminal: &mut Terminal) {
+        let (domain, problem) = (&self.input.domain, &self.input.problem);
         let success = match validate::judge(&self.executor, plan) {
             Verdict::Valid(success) => success,
             verdict @ Verdict::Invalid(_) => {
-                let story =
-                    validate::story(&verdict, &self.input.domain, &self.input.problem, plan);
-                terminal.say(Complaint::with_help(
-                    "this is a bug in caveat: the search returned a plan that is not valid, so it was not written",
-                    format!("please report it with the command line and the files, at {}/issues", env!("CARGO_PKG_REPOSITORY")),
-                ));
-                terminal.say(story.trim_end());
-                self.failure.get_or_insert(Exit::Bug);
+                desk.refuse(&validate::story(&verdict, domain, problem, plan), terminal);
                 return;
             }
         };
-        let (domain, problem) = (&self.input.domain, &self.input.problem);
         let text = plan::write(plan, domain, problem, success.cost, self.unit_cost);
-        let path = self.path();
-        let written = {
-            let _files = self.watch.files();
-            let written = files::write(&path, text.as_bytes());
-            if written.is_ok() {
-                self.watch.found();
-            }
-            written
-        };
-        match written {
-            Ok(()) => self.written += 1,
-            Err(complaint) => {
-                terminal.say(complaint);
-                self.failure.get_or_insert(Exit::Input);
-            }
-        }
+        desk.save(&text, terminal);
         self.print(plan, &success, terminal);
     }
 

@@ -32,6 +32,7 @@ use index::Index;
 use record::Reading;
 use requirement::{Flags, Need};
 
+pub(crate) use condition::conjoin;
 pub use domain::domain;
 pub use problem::problem;
 

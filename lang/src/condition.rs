@@ -164,6 +164,28 @@ impl Condition {
         })
     }
 
+    /// The same with other variables, also where quantifiers bind them.
+    pub fn rename(self, new: &dyn Fn(VariableId) -> Term) -> Self {
+        let term = |term| match term {
+            Term::Variable(variable) => new(variable),
+            object @ Term::Object(_) => object,
+        };
+        let bound = |variables: Vec<VariableId>| {
+            let each = variables.into_iter().filter_map(|variable| match new(variable) {
+                Term::Variable(variable) => Some(variable),
+                Term::Object(_) => None,
+            });
+            each.collect::<Vec<_>>()
+        };
+        match self {
+            Self::All(parts) => Self::all(parts.into_iter().map(|part| part.rename(new))),
+            Self::Any(parts) => Self::any(parts.into_iter().map(|part| part.rename(new))),
+            Self::Forall(variables, body) => Self::forall(bound(variables), body.rename(new)),
+            Self::Exists(variables, body) => Self::exists(bound(variables), body.rename(new)),
+            leaf => leaf.substitute(&term),
+        }
+    }
+
     /// Shows every leaf.
     pub fn visit(&self, leaf: &mut dyn FnMut(&Self)) {
         match self {

@@ -31,6 +31,7 @@ pub mod support;
 pub mod lint;
 pub mod plan;
 pub mod execute;
+pub mod multiagent;
 pub mod validate;
 pub mod print;
 pub mod format;

@@ -46,6 +46,8 @@ pub struct Config {
     pub strategy: Strategy,
     /// Whether to go on for cheaper plans after the first.
     pub anytime: bool,
+    /// How many states may be expanded before the search gives up; any number without it.
+    pub budget: Option<u64>,
     /// Where randomness is used, it starts here.
     pub seed: u64,
     /// Where to count along, for someone who watches.
@@ -74,6 +76,8 @@ pub enum Status {
     Unsolvable,
     /// None was found, and that proves nothing: costs grew beyond what a node can hold.
     Incomplete,
+    /// None was found within the budget.
+    Spent,
     /// None was found before the search was told to stop.
     Stopped(Stop),
 }
@@ -161,6 +165,7 @@ pub fn run(
     let mut run = Run {
         limits,
         progress: config.progress.as_deref(),
+        budget: config.budget.unwrap_or(u64::MAX),
         statistics: Statistics::default(),
         on_plan,
         best: None,
@@ -181,6 +186,7 @@ pub fn run(
     let status = match end {
         _ if run.best.is_some() => Status::Solved,
         End::Stopped(stop) => Status::Stopped(stop),
+        End::Spent => Status::Spent,
         _ if run.overflow => Status::Incomplete,
         _ => Status::Unsolvable,
     };
@@ -247,6 +253,8 @@ enum End {
     Solved,
     /// Nothing is left to expand.
     Exhausted,
+    /// It has used up its budget.
+    Spent,
     /// It was told to stop.
     Stopped(Stop),
 }
@@ -255,6 +263,7 @@ enum End {
 struct Run<'a> {
     limits: &'a Limits,
     progress: Option<&'a Progress>,
+    budget: u64,
     statistics: Statistics,
     on_plan: &'a mut dyn FnMut(&[OperatorId], u64),
     /// The cost of the cheapest plan so far.
@@ -269,6 +278,9 @@ impl Run<'_> {
     fn stopped(&mut self, space: &Space) -> Option<End> {
         if self.statistics.expanded.is_multiple_of(256) {
             self.publish(space);
+        }
+        if self.statistics.expanded >= self.budget {
+            return Some(End::Spent);
         }
         self.limits.stopped().map(End::Stopped)
     }

@@ -88,7 +88,7 @@ pub(super) fn check<'a>(
 }
 
 /// Both must hold.
-pub(super) fn conjoin(parts: Vec<model::Formula>, span: Span) -> model::Formula {
+pub(crate) fn conjoin(parts: Vec<model::Formula>, span: Span) -> model::Formula {
     let mut parts: Vec<_> = parts.into_iter().filter(|part| !part.is_truth()).collect();
     if parts.len() <= 1 {
         return parts.pop().unwrap_or_else(|| model::Formula::truth(span));

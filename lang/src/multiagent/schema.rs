@@ -1,0 +1,237 @@
+//! The actions of a domain go in; their conditions come out as trees, with what the semantics adds to them written out as action atoms:
+//! that no part adds what another deletes and, where parts must not interfere, that none destroys the precondition of another.
+
+use super::world::{Simplifier, World};
+use crate::condition::{self, Condition};
+use crate::execute::joint::Concurrency;
+use crate::model::{
+    Action, ActionAtom, ActionId, Atom, Increase, Literal, Scope, Term, TypeId, Variable,
+    VariableId,
+};
+
+/// An action to be compiled.
+#[derive(Debug, Clone)]
+pub(super) struct Schema {
+    pub(super) id: ActionId,
+    pub(super) name: String,
+    /// The action's variables, and those of what is added to its precondition.
+    pub(super) scope: Scope,
+    /// Whether the first parameter is the agent.
+    pub(super) agent: bool,
+    pub(super) precondition: Condition,
+    pub(super) effects: Vec<Effect>,
+    pub(super) increases: Vec<Increase>,
+}
+
+/// For every binding of the variables under which the condition holds, all literals.
+#[derive(Debug, Clone)]
+pub(super) struct Effect {
+    pub(super) variables: Vec<VariableId>,
+    pub(super) condition: Condition,
+    pub(super) literals: Vec<Literal>,
+}
+
+impl Schema {
+    fn new(id: ActionId, action: &Action) -> Option<Self> {
+        let effects = action.effects.iter().map(|effect| {
+            Some(Effect {
+                variables: effect.variables.clone(),
+                condition: Condition::new(&effect.condition)?,
+                literals: effect.literals.clone(),
+            })
+        });
+        Some(Self {
+            id,
+            name: action.name.text.clone(),
+            scope: action.scope.clone(),
+            agent: action.agent,
+            precondition: Condition::new(&action.precondition)?,
+            effects: effects.collect::<Option<_>>()?,
+            increases: action.increases.clone(),
+        })
+    }
+
+    /// The parameters.
+    pub(super) fn parameters(&self) -> &[Variable] {
+        &self.scope.variables[..self.scope.parameters as usize]
+    }
+
+    /// Whether a term is the agent.
+    pub(super) fn is_agent(&self, term: Term) -> bool {
+        self.agent && term == Term::Variable(VariableId(0))
+    }
+}
+
+/// The schemas of `world`'s domain. Nothing if a condition is nested too deep. Also whether they say exactly what the semantics does,
+/// and not more: with [`Concurrency::Safe`], every fact of a precondition is protected, even where another one would do instead.
+pub(super) fn schemas(world: &World<'_>, concurrency: Concurrency) -> Option<(Vec<Schema>, bool)> {
+    let actions = world.domain.actions.iter().enumerate();
+    let mut schemas = actions
+        .map(|(at, action)| Schema::new(ActionId(at as u32), action))
+        .collect::<Option<Vec<_>>>()?;
+    let plain = schemas.clone();
+    let mut exact = true;
+    for (schema, own) in schemas.iter_mut().zip(&plain) {
+        for other in &plain {
+            let mut added = conflicts(world, own, other, &mut schema.scope);
+            if concurrency == Concurrency::Safe {
+                added.extend(protections(world, own, other, &mut schema.scope, &mut exact));
+            }
+            let before = std::mem::replace(&mut schema.precondition, Condition::TRUE);
+            schema.precondition = Condition::all(std::iter::once(before).chain(added));
+        }
+        let simplifier = Simplifier { world, variables: &schema.scope.variables, distinct: &[] };
+        let before = std::mem::replace(&mut schema.precondition, Condition::TRUE);
+        schema.precondition = simplifier.simplify(before);
+    }
+    Some((schemas, exact))
+}
+
+/// That no instance of `other` deletes what `own` adds, or adds what it deletes.
+fn conflicts(
+    world: &World<'_>,
+    own: &Schema,
+    other: &Schema,
+    scope: &mut Scope,
+) -> Vec<Condition> {
+    let mut added = Vec::new();
+    for mine in &own.effects {
+        for literal in &mine.literals {
+            for theirs in &other.effects {
+                let opposite = theirs.literals.iter().filter(|one| one.positive != literal.positive);
+                for against in opposite {
+                    if !may_meet(world, (own, &literal.atom), (other, &against.atom)) {
+                        continue;
+                    }
+                    let mine = (mine.variables.clone(), mine.condition.clone());
+                    added.push(never(scope, mine, &literal.atom, other, theirs, &against.atom));
+                }
+            }
+        }
+    }
+    added
+}
+
+/// That no instance of `other` destroys a literal of the precondition of `own`.
+fn protections(
+    world: &World<'_>,
+    own: &Schema,
+    other: &Schema,
+    scope: &mut Scope,
+    exact: &mut bool,
+) -> Vec<Condition> {
+    let mut added = Vec::new();
+    for part in own.precondition.conjuncts() {
+        let single = matches!(part, Condition::Atom(..));
+        let mut leaves = Vec::new();
+        part.visit(&mut |leaf| {
+            if let Condition::Atom(atom, holds) = leaf {
+                leaves.push((atom.clone(), *holds));
+            }
+        });
+        for (atom, holds) in leaves {
+            for theirs in &other.effects {
+                for against in theirs.literals.iter().filter(|one| one.positive != holds) {
+                    // A derived predicate is changed by nothing directly.
+                    if !may_meet(world, (own, &atom), (other, &against.atom)) {
+                        continue;
+                    }
+                    *exact &= single;
+                    let bound = atom.arguments.iter().filter_map(|&term| match term {
+                        Term::Variable(id) if id.0 >= own.scope.parameters => Some(id),
+                        _ => None,
+                    });
+                    let mine = (bound.collect(), Condition::TRUE);
+                    added.push(never(scope, mine, &atom, other, theirs, &against.atom));
+                }
+            }
+            let derived = world.domain.predicates[atom.predicate.index()].derived;
+            *exact &= !derived;
+        }
+    }
+    added
+}
+
+/// That there is no instance of `other` with an effect on the very fact `atom`, while `mine` holds.
+fn never(
+    scope: &mut Scope,
+    mine: (Vec<VariableId>, Condition),
+    atom: &Atom,
+    other: &Schema,
+    theirs: &Effect,
+    against: &Atom,
+) -> Condition {
+    // Both sides get variables of their own, since each binder must have its own.
+    let own_bound: Vec<VariableId> =
+        (0..scope.variables.len() as u32).map(VariableId).collect();
+    let own = copy_bound(scope, &own_bound, &mine.0);
+    let (variables, condition) = mine;
+    let first = scope.variables.len() as u32;
+    scope.variables.extend(other.scope.variables.iter().cloned());
+    let theirs_new = |variable: VariableId| Term::Variable(VariableId(first + variable.0));
+    let term = |term: Term, new: &dyn Fn(VariableId) -> Term| match term {
+        Term::Variable(variable) => new(variable),
+        object @ Term::Object(_) => object,
+    };
+    let mine_new = |variable: VariableId| own[variable.index()];
+    let mut parts = vec![
+        Condition::Action(
+            ActionAtom {
+                action: other.id,
+                arguments: (0..other.scope.parameters)
+                    .map(|at| theirs_new(VariableId(at)))
+                    .collect(),
+            },
+            true,
+        ),
+        condition.rename(&mine_new),
+        theirs.condition.clone().rename(&theirs_new),
+    ];
+    for (&left, &right) in atom.arguments.iter().zip(&against.arguments) {
+        parts.push(condition::equal(term(left, &mine_new), term(right, &theirs_new), true));
+    }
+    let mut bound: Vec<VariableId> = variables
+        .iter()
+        .filter_map(|variable| match own[variable.index()] {
+            Term::Variable(variable) => Some(variable),
+            Term::Object(_) => None,
+        })
+        .collect();
+    bound.extend((0..other.scope.parameters).map(|at| VariableId(first + at)));
+    bound.extend(theirs.variables.iter().map(|variable| VariableId(first + variable.0)));
+    Condition::exists(bound, Condition::all(parts)).not()
+}
+
+/// Fresh copies of the variables `copied` in `scope`; all others stay.
+fn copy_bound(scope: &mut Scope, all: &[VariableId], copied: &[VariableId]) -> Vec<Term> {
+    all.iter()
+        .map(|&variable| {
+            if !copied.contains(&variable) {
+                return Term::Variable(variable);
+            }
+            scope.variables.push(scope.variables[variable.index()].clone());
+            Term::Variable(VariableId(scope.variables.len() as u32 - 1))
+        })
+        .collect()
+}
+
+/// Whether an atom of one part and an atom of a part of another agent may be the same fact.
+pub(super) fn may_meet(
+    world: &World<'_>,
+    (one, atom): (&Schema, &Atom),
+    (other, against): (&Schema, &Atom),
+) -> bool {
+    atom.predicate == against.predicate
+        && atom.arguments.iter().zip(&against.arguments).all(|(&left, &right)| {
+            let agents = one.is_agent(left) && other.is_agent(right);
+            let objects = match (left, right) {
+                (Term::Object(left), Term::Object(right)) => left == right,
+                _ => true,
+            };
+            let (left, right): (&[TypeId], &[TypeId]) = (
+                world.types(left, &one.scope.variables),
+                world.types(right, &other.scope.variables),
+            );
+            !agents && objects && world.overlap(left, right)
+        })
+}
