@@ -86,6 +86,13 @@ impl Task {
     }
 }
 
+impl Ready {
+    /// How many operators the task has.
+    pub fn operators(&self) -> u64 {
+        self.task.operators.len() as u64
+    }
+}
+
 /// Searches a task; every plan that is cheaper than those before goes to `found`.
 pub fn search(ready: &Ready, config: &Config, watch: &Watch, mut found: impl FnMut(Plan)) -> End {
     watch.searching();

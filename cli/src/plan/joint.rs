@@ -20,8 +20,8 @@ use crate::pipeline::{self, End, Obstacle, Ready};
 use crate::progress::Progress;
 use crate::terminal::Terminal;
 
-/// How many states the first turn may expand; each round has four times as many.
-const FIRST_TURN: u64 = 10_000;
+/// How many states the first turn may expand, times the operators of the task, since that is what an expansion takes; each round has four times as many.
+const FIRST_TURN: u64 = 20_000_000;
 
 /// Plans for several agents.
 pub(super) fn run(
@@ -144,6 +144,7 @@ impl Planning<'_> {
             last = Some(stage.compiled.decode(&plan));
         });
         self.best = last;
+        if std::env::var_os("CAVEAT_TRACE").is_some() { eprintln!("trace: {:?} {:?} exp {} in {:?} at {:?}", stage.compiled.domain.actions.len(), end.status, end.statistics.expanded, end.time, crate::limits::cpu_time()); }
         end
     }
 
@@ -158,7 +159,8 @@ impl Planning<'_> {
         let complete = compiled.complete;
         let stage = self.stage(compiled)?;
         let end = self.search(&stage, strategy, None);
-        Ok((self.best.take(), End { optimal: end.optimal && complete, ..end }))
+        // Merging changes neither the actions nor what they cost.
+        Ok((self.plan(), End { optimal: end.optimal && complete, ..end }))
     }
 
     /// Some joint plan.
@@ -176,7 +178,7 @@ impl Planning<'_> {
             let end = self.search(&stage, self.strategy, None);
             return Ok((self.plan(), end));
         }
-        let mut budget = FIRST_TURN;
+        let mut work = std::env::var("CF").map_or(FIRST_TURN, |t| t.parse().unwrap());
         loop {
             for turn in 0..2 {
                 if turn == stages.len() {
@@ -184,7 +186,9 @@ impl Planning<'_> {
                     stages.push(Some(self.stage(compiled)?));
                 }
                 let Some(stage) = stages[turn].take() else { continue };
-                let mut end = self.search(&stage, self.strategy, Some(budget));
+                let share = if turn == 0 { work } else { work / 4 };
+                let turn_budget = (share / stage.ready.operators().max(1)).max(1);
+                let mut end = self.search(&stage, self.strategy, Some(turn_budget));
                 match end.status {
                     Status::Spent => stages[turn] = Some(stage),
                     Status::Unsolvable if turn == 0 => {}
@@ -195,7 +199,7 @@ impl Planning<'_> {
                     _ => return Ok((self.plan(), end)),
                 }
             }
-            budget *= 4;
+            work = work.saturating_mul(4);
         }
     }
 

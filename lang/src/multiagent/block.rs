@@ -71,6 +71,10 @@ struct Stage {
     chosen: Vec<PredicateId>,
     /// For each pattern, that an instance is used and that it is forbidden.
     patterns: Vec<(Pattern, [PredicateId; 2])>,
+    /// What says that the block has gone wrong, if effects may clash.
+    broken: Option<PredicateId>,
+    /// For each predicate whose facts may clash, that a part has added or deleted a fact of it.
+    marks: Vec<(PredicateId, [PredicateId; 2])>,
     /// For each schema and each of its effects that must be decided before others happen, that it fires.
     fires: Vec<Vec<Option<PredicateId>>>,
 }
@@ -129,8 +133,11 @@ impl Block<'_> {
                 effects.iter().enumerate().map(number).collect()
             })
             .collect();
+        let (patterns, marks) = (Vec::new(), self.marks(assembly));
+        let broken =
+            (!marks.is_empty()).then(|| assembly.predicate(&format!("broken-{suffix}"), Vec::new()));
         let mut stage =
-            Stage { selecting, checking: None, applying, chosen, patterns: Vec::new(), fires };
+            Stage { selecting, checking: None, applying, chosen, patterns, broken, marks, fires };
         self.patterns(&mut stage, assembly);
         if (0..self.group.len()).any(|at| self.must_check(at, &stage)) {
             stage.checking = Some(assembly.predicate(&format!("checking-{suffix}"), Vec::new()));
@@ -152,6 +159,41 @@ impl Block<'_> {
             }),
             _ => false,
         })
+    }
+
+    /// The predicates of which one part may add and another delete a fact where one of the two depends on a condition.
+    fn marks(&self, assembly: &mut Assembly) -> Vec<(PredicateId, [PredicateId; 2])> {
+        let literals = |at: usize| {
+            let effects = self.schema(at).effects.iter();
+            effects.flat_map(|effect| effect.literals.iter().map(move |literal| (effect, literal)))
+        };
+        let mut marks: Vec<(PredicateId, [PredicateId; 2])> = Vec::new();
+        for one in 0..self.group.len() {
+            for other in one..self.group.len() {
+                for (mine, literal) in literals(one) {
+                    for (theirs, against) in literals(other) {
+                        let predicate = literal.atom.predicate;
+                        let meet = literal.positive != against.positive
+                            && !(mine.is_plain() && theirs.is_plain())
+                            && marks.iter().all(|(known, _)| *known != predicate)
+                            && super::schema::may_meet(
+                                self.world,
+                                (self.schema(one), &literal.atom),
+                                (self.schema(other), &against.atom),
+                            );
+                        if meet {
+                            let declared = &self.world.domain.predicates[predicate.index()];
+                            let pair = ["added", "deleted"].map(|word| {
+                                let name = format!("{word}-{}", declared.name.text);
+                                assembly.predicate(&name, declared.parameters.clone())
+                            });
+                            marks.push((predicate, pair));
+                        }
+                    }
+                }
+            }
+        }
+        marks
     }
 
     /// Finds the patterns that parts of preconditions are.
@@ -369,6 +411,7 @@ impl Block<'_> {
         self.settled(&mut end, false);
         end.makes(fact(stage.applying), false);
         end.makes(fact(self.tokens.idle), true);
+        self.forget(stage, &mut end);
         if let Some(Counter { count, number, .. }) = &self.tokens.counter {
             let variable = self.declare(&mut end.scope, "?n");
             end.scope.variables[variable.index()].types = vec![*number];
@@ -376,6 +419,25 @@ impl Block<'_> {
             end.effects.push((vec![variable], Condition::TRUE, vec![(atom, false)]));
         }
         assembly.action(end, Role::End);
+    }
+
+    /// Nothing has gone wrong, and what parts have added and deleted need not be known any longer.
+    fn forget(&self, stage: &Stage, end: &mut Draft) {
+        if let Some(broken) = stage.broken {
+            end.needs(Atom { predicate: broken, arguments: Vec::new() }, false);
+        }
+        for (predicate, pair) in &stage.marks {
+            let parameters = &self.world.domain.predicates[predicate.index()].parameters;
+            let first = end.scope.variables.len() as u32;
+            end.scope.variables.extend(parameters.iter().cloned());
+            let bound: Vec<VariableId> =
+                (first..end.scope.variables.len() as u32).map(VariableId).collect();
+            let arguments: Vec<Term> = bound.iter().map(|&id| Term::Variable(id)).collect();
+            let marks = pair.map(|predicate| {
+                (Atom { predicate, arguments: arguments.clone() }, false)
+            });
+            end.effects.push((bound, Condition::TRUE, marks.to_vec()));
+        }
     }
 
     fn price(&self, value: u32) -> Option<Increase> {
@@ -551,8 +613,37 @@ impl Block<'_> {
                     Condition::Atom(fact, true)
                 }
             };
+            for literal in &effect.literals {
+                self.mark(effect, literal, &condition, stage, &mut literals, &mut draft);
+            }
             draft.effects.push((effect.variables.clone(), condition, literals));
         }
         assembly.action(draft, Role::Frame);
+    }
+
+    /// Takes down that a fact is added or deleted, and sees to it that no other part does the opposite.
+    fn mark(
+        &self,
+        effect: &Effect,
+        literal: &Literal,
+        condition: &Condition,
+        stage: &Stage,
+        literals: &mut Vec<(Atom, bool)>,
+        draft: &mut Draft,
+    ) {
+        let known = stage.marks.iter().find(|(known, _)| *known == literal.atom.predicate);
+        let Some((_, [added, deleted])) = known else { return };
+        let (own, opposite) =
+            if literal.positive { (*added, *deleted) } else { (*deleted, *added) };
+        let fact = |predicate| Atom { predicate, arguments: literal.atom.arguments.clone() };
+        literals.push((fact(own), true));
+        if effect.is_plain() {
+            draft.needs(fact(opposite), false);
+            return;
+        }
+        let broken = stage.broken.expect("it is there if there are marks");
+        let broken = Atom { predicate: broken, arguments: Vec::new() };
+        let clash = Condition::all([condition.clone(), Condition::Atom(fact(opposite), true)]);
+        draft.effects.push((effect.variables.clone(), clash, vec![(broken, true)]));
     }
 }

@@ -166,7 +166,7 @@ fn excluded(
     let mut seen: Vec<(Atom, bool)> = Vec::new();
     for of in 0..2 {
         let schema = &finder.schemas[team.members[of].schema];
-        for part in schema.precondition.conjuncts() {
+        for part in schema.demands() {
             // Others may do what is asked for.
             let hopeful = part.clone().map(&mut |leaf| match leaf {
                 Condition::Action(_, true) => Condition::TRUE,

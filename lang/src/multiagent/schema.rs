@@ -19,6 +19,8 @@ pub(super) struct Schema {
     /// Whether the first parameter is the agent.
     pub(super) agent: bool,
     pub(super) precondition: Condition,
+    /// That no effect that depends on a condition clashes with one of another part: parts of the precondition, which blocks see to in their own way.
+    pub(super) clashes: Vec<Condition>,
     pub(super) effects: Vec<Effect>,
     pub(super) increases: Vec<Increase>,
 }
@@ -29,6 +31,13 @@ pub(super) struct Effect {
     pub(super) variables: Vec<VariableId>,
     pub(super) condition: Condition,
     pub(super) literals: Vec<Literal>,
+}
+
+impl Effect {
+    /// Whether it happens always, and to one fact for each literal.
+    pub(super) fn is_plain(&self) -> bool {
+        self.variables.is_empty() && self.condition == Condition::TRUE
+    }
 }
 
 impl Schema {
@@ -46,9 +55,15 @@ impl Schema {
             scope: action.scope.clone(),
             agent: action.agent,
             precondition: Condition::new(&action.precondition)?,
+            clashes: Vec::new(),
             effects: effects.collect::<Option<_>>()?,
             increases: action.increases.clone(),
         })
+    }
+
+    /// All that must hold before.
+    pub(super) fn demands(&self) -> impl Iterator<Item = &Condition> {
+        self.precondition.conjuncts().iter().chain(&self.clashes)
     }
 
     /// The parameters.
@@ -73,7 +88,8 @@ pub(super) fn schemas(world: &World<'_>, concurrency: Concurrency) -> Option<(Ve
     let mut exact = true;
     for (schema, own) in schemas.iter_mut().zip(&plain) {
         for other in &plain {
-            let mut added = conflicts(world, own, other, &mut schema.scope);
+            let (mut added, clashes) = conflicts(world, own, other, &mut schema.scope);
+            schema.clashes.extend(clashes);
             if concurrency == Concurrency::Safe {
                 added.extend(protections(world, own, other, &mut schema.scope, &mut exact));
             }
@@ -83,18 +99,20 @@ pub(super) fn schemas(world: &World<'_>, concurrency: Concurrency) -> Option<(Ve
         let simplifier = Simplifier { world, variables: &schema.scope.variables, distinct: &[] };
         let before = std::mem::replace(&mut schema.precondition, Condition::TRUE);
         schema.precondition = simplifier.simplify(before);
+        let clashes = std::mem::take(&mut schema.clashes);
+        schema.clashes = clashes.into_iter().map(|clash| simplifier.simplify(clash)).collect();
     }
     Some((schemas, exact))
 }
 
-/// That no instance of `other` deletes what `own` adds, or adds what it deletes.
+/// That no instance of `other` deletes what `own` adds, or adds what it deletes: first where both happen always, then all others.
 fn conflicts(
     world: &World<'_>,
     own: &Schema,
     other: &Schema,
     scope: &mut Scope,
-) -> Vec<Condition> {
-    let mut added = Vec::new();
+) -> (Vec<Condition>, Vec<Condition>) {
+    let (mut plain, mut clashes) = (Vec::new(), Vec::new());
     for mine in &own.effects {
         for literal in &mine.literals {
             for theirs in &other.effects {
@@ -103,13 +121,18 @@ fn conflicts(
                     if !may_meet(world, (own, &literal.atom), (other, &against.atom)) {
                         continue;
                     }
+                    let list = if mine.is_plain() && theirs.is_plain() {
+                        &mut plain
+                    } else {
+                        &mut clashes
+                    };
                     let mine = (mine.variables.clone(), mine.condition.clone());
-                    added.push(never(scope, mine, &literal.atom, other, theirs, &against.atom));
+                    list.push(never(scope, mine, &literal.atom, other, theirs, &against.atom));
                 }
             }
         }
     }
-    added
+    (plain, clashes)
 }
 
 /// That no instance of `other` destroys a literal of the precondition of `own`.

@@ -36,7 +36,7 @@ pub(super) fn shortcut(finder: &Finder<'_>, team: &Team, before: PredicateId) ->
         }
     }
     for (of, member) in team.members.iter().enumerate() {
-        for part in schemas[member.schema].precondition.conjuncts() {
+        for part in schemas[member.schema].demands() {
             precondition.push(finder.value(team, of, part, &mut scope));
         }
     }

@@ -262,7 +262,7 @@ impl Finder<'_> {
         let mut choices = Vec::new();
         let mut missing = Vec::new();
         for (of, member) in team.members.iter().enumerate() {
-            for part in self.schemas[member.schema].precondition.conjuncts() {
+            for part in self.schemas[member.schema].demands() {
                 let mut scope = self.scope(team);
                 let value = self.value(team, of, part, &mut scope);
                 let atoms = positive(part);
