@@ -7,6 +7,7 @@ pub mod astar;
 pub mod eager;
 pub mod lazy;
 pub mod breadth;
+pub mod novelty;
 
 use std::fmt;
 use std::str::FromStr;
@@ -37,6 +38,8 @@ pub enum Strategy {
     Lazy(Kind),
     /// Breadth-first.
     Breadth,
+    /// Best-first width search.
+    Novelty,
 }
 
 /// A configuration.
@@ -129,7 +132,7 @@ pub struct Profile {
 
 /// The profiles of all engines.
 pub fn list() -> Vec<Profile> {
-    vec![astar::profile(), eager::profile(), lazy::profile(), breadth::profile()]
+    vec![astar::profile(), eager::profile(), lazy::profile(), breadth::profile(), novelty::profile()]
 }
 
 /// The strategy that is run for a configuration: one that names an engine.
@@ -215,6 +218,7 @@ fn first(task: &Task, strategy: Strategy, config: &Config, run: &mut Run) -> End
                 run,
             )
         }
+        Strategy::Novelty => novelty::search(&mut space, run),
         _ => breadth::search(&mut space, run),
     };
     run.statistics.registered += space.len() as u64;
@@ -348,6 +352,7 @@ impl fmt::Display for Strategy {
             Self::Eager(kind) => write!(formatter, "eager({})", kind.profile().name),
             Self::Lazy(kind) => write!(formatter, "lazy({})", kind.profile().name),
             Self::Breadth => formatter.write_str("breadth"),
+            Self::Novelty => formatter.write_str("bfws"),
         }
     }
 }
@@ -355,7 +360,7 @@ impl fmt::Display for Strategy {
 impl FromStr for Strategy {
     type Err = String;
 
-    /// Reads what [`fmt::Display`] writes: `optimal`, `breadth`, `astar(lmcut)`.
+    /// Reads what [`fmt::Display`] writes: `optimal`, `breadth`, `bfws`, `astar(lmcut)`.
     fn from_str(text: &str) -> Result<Self, String> {
         let (name, heuristic) = match text.strip_suffix(')').and_then(|text| text.split_once('(')) {
             Some((name, heuristic)) => {
@@ -369,6 +374,7 @@ impl FromStr for Strategy {
             ("optimal", None) => Ok(Self::Optimal),
             ("first", None) => Ok(Self::First),
             ("breadth", None) => Ok(Self::Breadth),
+            ("bfws", None) => Ok(Self::Novelty),
             ("astar", Some(kind)) => Ok(Self::AStar(kind)),
             ("eager", Some(kind)) => Ok(Self::Eager(kind)),
             ("lazy", Some(kind)) => Ok(Self::Lazy(kind)),

@@ -4,7 +4,7 @@
 
 use super::relaxed::{AXIOM, Combine, Exploration, NO_RULE, UNREACHED};
 use super::{Costs, DEAD_END, Heuristic, Profile};
-use crate::task::{OperatorId, Task};
+use crate::task::{Fact, OperatorId, Task};
 
 /// What may be relied on.
 pub fn profile() -> Profile {
@@ -47,6 +47,16 @@ impl Ff {
             preferred: Vec::new(),
             exploration,
         }
+    }
+
+    /// Those of `facts` that the last relaxed plan makes true.
+    pub fn achieves(&self, facts: &[Fact]) -> Vec<Fact> {
+        let made = |fact: &Fact| {
+            let number = self.exploration.number(*fact) as usize;
+            self.fact_marks[number] == self.now
+                && self.exploration.facts[number].supporter != NO_RULE
+        };
+        facts.iter().copied().filter(made).collect()
     }
 
     fn tick(&mut self) {

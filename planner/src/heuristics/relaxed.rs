@@ -221,6 +221,11 @@ impl Exploration {
         &self.goal
     }
 
+    /// The number of a fact.
+    pub(super) fn number(&self, fact: Fact) -> u32 {
+        self.offsets[fact.variable.index()] + fact.value
+    }
+
     /// What a rule needs.
     #[inline]
     pub(super) fn needs(&self, rule: u32) -> &[u32] {

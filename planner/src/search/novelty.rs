@@ -1,0 +1,221 @@
+//! Best-first width search, BFWS(f5) (Lipovetzky and Geffner, AAAI 2017): states come in the order of their novelty, then of the goals left.
+//!
+//! A state is as novel as the smallest set of its facts that no state before had among those that are as far: with as many goals left, and as many
+//! facts achieved of the relaxed plan made when the number of goals left last fell. Sets of one and of two facts are told apart, and all else.
+//! Where a search by estimates of distance is lost on a plateau, this one spreads evenly over it. Ties: the oldest first.
+
+use rustc_hash::FxHashMap;
+
+use super::node::{Node, Nodes, Status};
+use super::{End, Profile, Run};
+use crate::heuristics::ff::Ff;
+use crate::heuristics::{Costs, DEAD_END, Heuristic};
+use crate::open::{Open, Order};
+use crate::registry::StateId;
+use crate::segmented::Segmented;
+use crate::space::Space;
+use crate::task::{Fact, Task, VariableId};
+
+/// How it is listed.
+pub fn profile() -> Profile {
+    Profile {
+        name: "bfws",
+        summary: "best-first by novelty of width 2, then by the goals left",
+        source: "Lipovetzky and Geffner, Best-first width search, AAAI 2017",
+        optimal: false,
+    }
+}
+
+/// Pairs are looked at where there are no more variables than this, since every state has a pair for each two of them.
+const MOST_VARIABLES: usize = 400;
+
+/// Bytes that tables of pairs may take in all; states that would need a new one then have no novelty of two.
+const MOST_BYTES: usize = 1 << 30;
+
+/// How far a state is.
+#[derive(Debug, Clone, Copy, Default)]
+struct Way {
+    /// Goals that do not hold.
+    goals: u32,
+    /// Which relaxed plan counts.
+    plan: u32,
+    /// Which of its first 128 facts have been achieved.
+    achieved: u128,
+}
+
+/// The sets of facts that have been seen in one part of the state space.
+#[derive(Debug, Default)]
+struct Seen {
+    single: Vec<u64>,
+    pairs: Vec<u64>,
+}
+
+/// What tells new from old.
+struct Novelty {
+    /// The number of each variable's first fact; facts are numbered in sequence.
+    offsets: Vec<u32>,
+    /// The variables of states, without derived ones.
+    variables: Vec<usize>,
+    facts: usize,
+    parts: FxHashMap<(u32, u32), Seen>,
+    bytes: usize,
+}
+
+impl Novelty {
+    fn new(task: &Task) -> Self {
+        let mut offsets = Vec::with_capacity(task.variables.len());
+        let mut facts = 0;
+        for variable in &task.variables {
+            offsets.push(facts);
+            facts += variable.domain_size;
+        }
+        let variables =
+            (0..offsets.len()).filter(|&at| task.variables[at].axiom_layer.is_none()).collect();
+        let facts = facts as usize;
+        Self { offsets, variables, facts, parts: FxHashMap::default(), bytes: 0 }
+    }
+
+    /// 1 or 2 for the size of the smallest set of facts that is new, 3 if none is; from now on they are known.
+    fn of(&mut self, key: (u32, u32), values: &[u32]) -> u32 {
+        let words = self.facts.div_ceil(64);
+        let wanted = (self.facts * self.facts).div_ceil(64);
+        let pairs = self.variables.len() <= MOST_VARIABLES;
+        let seen = self.parts.entry(key).or_insert_with(|| {
+            let room = pairs && self.bytes + wanted * 8 <= MOST_BYTES;
+            self.bytes += if room { wanted * 8 } else { 0 };
+            Seen { single: vec![0; words], pairs: vec![0; if room { wanted } else { 0 }] }
+        });
+        let number = |&variable: &usize| (self.offsets[variable] + values[variable]) as usize;
+        let mut novelty = 3;
+        let mut note = |bits: &mut [u64], at: usize, width: u32| {
+            let (word, bit) = (&mut bits[at / 64], 1 << (at % 64));
+            if *word & bit == 0 {
+                *word |= bit;
+                novelty = novelty.min(width);
+            }
+        };
+        for (at, one) in self.variables.iter().map(number).enumerate() {
+            note(&mut seen.single, one, 1);
+            if !seen.pairs.is_empty() {
+                for other in self.variables[at + 1..].iter().map(number) {
+                    note(&mut seen.pairs, one * self.facts + other, 2);
+                }
+            }
+        }
+        novelty
+    }
+}
+
+/// The counts by which states are told apart.
+struct Counter {
+    ff: Ff,
+    goal: Vec<Fact>,
+    /// All facts of state variables.
+    facts: Vec<Fact>,
+    /// The facts of each relaxed plan.
+    plans: Vec<Vec<Fact>>,
+}
+
+impl Counter {
+    fn goals(&self, values: &[u32]) -> u32 {
+        self.goal.iter().filter(|fact| values[fact.variable.index()] != fact.value).count() as u32
+    }
+
+    /// How far a state is with these goals left, when it is reached from one that is as far as `before`; none for a dead end.
+    fn way(&mut self, values: &[u32], goals: u32, before: Option<Way>) -> Option<Way> {
+        if let Some(before) = before.filter(|before| goals >= before.goals) {
+            let mut way = Way { goals, ..before };
+            for (at, fact) in self.plans[before.plan as usize].iter().enumerate() {
+                if values[fact.variable.index()] == fact.value {
+                    way.achieved |= 1 << at;
+                }
+            }
+            return Some(way);
+        }
+        if self.ff.evaluate(values) == DEAD_END {
+            return None;
+        }
+        let mut facts = self.ff.achieves(&self.facts);
+        facts.truncate(128);
+        self.plans.push(facts);
+        Some(Way { goals, plan: self.plans.len() as u32 - 1, achieved: 0 })
+    }
+}
+
+/// All facts of state variables.
+fn facts(task: &Task) -> Vec<Fact> {
+    let variables = task.variables.iter().enumerate();
+    variables
+        .filter(|(_, variable)| variable.axiom_layer.is_none())
+        .flat_map(|(at, variable)| {
+            let variable_id = VariableId(at as u32);
+            (0..variable.domain_size).map(move |value| Fact { variable: variable_id, value })
+        })
+        .collect()
+}
+
+/// Runs until a plan is found.
+pub(super) fn search(space: &mut Space, run: &mut Run) -> End {
+    let task = space.task();
+    let (ff, goal, facts) = (Ff::new(task, Costs::Unit), task.goal.clone(), facts(task));
+    let mut counter = Counter { ff, goal, facts, plans: Vec::new() };
+    let mut novelty = Novelty::new(task);
+    let mut nodes = Nodes::default();
+    let mut ways: Segmented<Way> = Segmented::new(Way::default());
+    let mut open: Open<u32> = Open::new(Order::Fifo);
+    let mut values = task.initial_state.clone();
+    let mut child_values = values.clone();
+    let mut operators = Vec::new();
+    let initial = space.initial();
+    space.load(initial, &mut values);
+    let goals = counter.goals(&values);
+    let Some(way) = counter.way(&values, goals, None) else {
+        run.initial(DEAD_END);
+        return End::Exhausted;
+    };
+    run.initial(goals);
+    nodes.set(initial, Node { status: Status::Open, cost: 0, parent: initial });
+    ways.push(way);
+    if space.is_goal(&values) {
+        return run.solved(space, initial, |state| nodes.parent(state));
+    }
+    open.push((1, goals), initial.0);
+    let mut best = goals;
+    while let Some((_, state)) = open.pop() {
+        if let Some(end) = run.stopped(space) {
+            return end;
+        }
+        let state = StateId(state);
+        let before = ways.get(state.index());
+        run.statistics.expanded += 1;
+        space.load(state, &mut values);
+        space.applicable(&values, &mut operators);
+        for &operator in &operators {
+            run.statistics.generated += 1;
+            let (child, is_new) = space.successor(state, &values, operator);
+            if !is_new {
+                continue;
+            }
+            nodes.set(child, Node { status: Status::Open, cost: 0, parent: state });
+            space.load(child, &mut child_values);
+            if space.is_goal(&child_values) {
+                return run.solved(space, child, |state| nodes.parent(state));
+            }
+            run.statistics.evaluated += 1;
+            let goals = counter.goals(&child_values);
+            let Some(way) = counter.way(&child_values, goals, Some(before)) else {
+                run.statistics.dead_ends += 1;
+                ways.push(before);
+                continue;
+            };
+            ways.push(way);
+            if goals < best {
+                best = goals;
+                run.reached(best);
+            }
+            let width = novelty.of((goals, way.achieved.count_ones()), &child_values);
+            open.push((width, goals), child.0);
+        }
+    }
+    End::Exhausted
+}
