@@ -2,6 +2,8 @@
 //!
 //! A state is as novel as the smallest set of its facts that no state before had among those that are as far: with as many goals left, and as many
 //! facts achieved of the relaxed plan made when the number of goals left last fell. Sets of one and of two facts are told apart, and all else.
+//! Whenever fewer goals are left than ever before, the search begins anew from there, and comes back to what it left when it finds no way on:
+//! goals are reached one after another (Lipovetzky and Geffner, ECAI 2012, serialised width).
 //! Where a search by estimates of distance is lost on a plateau, this one spreads evenly over it. Ties: the oldest first.
 
 use rustc_hash::FxHashMap;
@@ -75,10 +77,17 @@ impl Novelty {
         Self { offsets, variables, facts, parts: FxHashMap::default(), bytes: 0 }
     }
 
+    /// Forgets all.
+    fn clear(&mut self) {
+        self.parts.clear();
+        self.bytes = 0;
+    }
+
     /// 1 or 2 for the size of the smallest set of facts that is new, 3 if none is; from now on they are known.
-    fn of(&mut self, key: (u32, u32), values: &[u32]) -> u32 {
+    /// `known` are the values of a state that has been looked at under the same key.
+    fn of(&mut self, key: (u32, u32), values: &[u32], known: Option<&[u32]>) -> u32 {
         let words = self.facts.div_ceil(64);
-        let wanted = (self.facts * self.facts).div_ceil(64);
+        let wanted = (self.facts * self.facts / 2).div_ceil(64);
         let pairs = self.variables.len() <= MOST_VARIABLES;
         let seen = self.parts.entry(key).or_insert_with(|| {
             let room = pairs && self.bytes + wanted * 8 <= MOST_BYTES;
@@ -94,11 +103,17 @@ impl Novelty {
                 novelty = novelty.min(width);
             }
         };
-        for (at, one) in self.variables.iter().map(number).enumerate() {
+        for variable in &self.variables {
+            if known.is_some_and(|known| known[*variable] == values[*variable]) {
+                continue;
+            }
+            let one = number(variable);
             note(&mut seen.single, one, 1);
             if !seen.pairs.is_empty() {
-                for other in self.variables[at + 1..].iter().map(number) {
-                    note(&mut seen.pairs, one * self.facts + other, 2);
+                for other in self.variables.iter().map(number).filter(|&other| other != one) {
+                    // Below the diagonal of the square of facts.
+                    let (large, small) = (one.max(other), one.min(other));
+                    note(&mut seen.pairs, large * (large - 1) / 2 + small, 2);
                 }
             }
         }
@@ -163,6 +178,7 @@ pub(super) fn search(space: &mut Space, run: &mut Run) -> End {
     let mut nodes = Nodes::default();
     let mut ways: Segmented<Way> = Segmented::new(Way::default());
     let mut open: Open<u32> = Open::new(Order::Fifo);
+    let mut stages = Vec::new();
     let mut values = task.initial_state.clone();
     let mut child_values = values.clone();
     let mut operators = Vec::new();
@@ -181,7 +197,14 @@ pub(super) fn search(space: &mut Space, run: &mut Run) -> End {
     }
     open.push((1, goals), initial.0);
     let mut best = goals;
-    while let Some((_, state)) = open.pop() {
+    loop {
+        let Some((_, state)) = open.pop() else {
+            match stages.pop() {
+                Some(before) => open = before,
+                None => return End::Exhausted,
+            }
+            continue;
+        };
         if let Some(end) = run.stopped(space) {
             return end;
         }
@@ -212,10 +235,13 @@ pub(super) fn search(space: &mut Space, run: &mut Run) -> End {
             if goals < best {
                 best = goals;
                 run.reached(best);
+                novelty.clear();
+                stages.push(std::mem::replace(&mut open, Open::new(Order::Fifo)));
             }
-            let width = novelty.of((goals, way.achieved.count_ones()), &child_values);
+            let key = |way: Way| (way.goals, way.plan, way.achieved.count_ones());
+            let known = (key(way) == key(before)).then_some(values.as_slice());
+            let width = novelty.of((goals, way.achieved.count_ones()), &child_values, known);
             open.push((width, goals), child.0);
         }
     }
-    End::Exhausted
 }
