@@ -86,19 +86,25 @@ impl Task {
     }
 }
 
-impl Ready {
-    /// How many operators the task has.
-    pub fn operators(&self) -> u64 {
-        self.task.operators.len() as u64
-    }
+/// Searches a task; every plan that is cheaper than those before goes to `found`.
+pub fn search(ready: &Ready, config: &Config, watch: &Watch, found: impl FnMut(Plan)) -> End {
+    search_in_turns(ready, config, watch, found, u64::MAX, || None)
 }
 
-/// Searches a task; every plan that is cheaper than those before goes to `found`.
-pub fn search(ready: &Ready, config: &Config, watch: &Watch, mut found: impl FnMut(Plan)) -> End {
+/// As [`search`], but after the work `budget` it asks `more` how much it may do on top, and gives up without an answer.
+pub fn search_in_turns(
+    ready: &Ready,
+    config: &Config,
+    watch: &Watch,
+    mut found: impl FnMut(Plan),
+    budget: u64,
+    mut more: impl FnMut() -> Option<u64>,
+) -> End {
     watch.searching();
     let start = cpu_time();
     let mut on_plan = |operators: &[OperatorId], _: u64| found(ready.decoder.plan(operators));
-    let outcome = search::run(&ready.task, config, &watch.limits, &mut on_plan);
+    let (task, limits) = (&ready.task, &watch.limits);
+    let outcome = search::run_in_turns(task, config, limits, &mut on_plan, budget, &mut more);
     End {
         status: outcome.status,
         optimal: outcome.optimal,

@@ -2,6 +2,7 @@
 
 mod desk;
 mod joint;
+mod turns;
 
 use std::str::FromStr;
 
@@ -69,7 +70,6 @@ pub fn run(arguments: &args::Plan, terminal: &mut Terminal) -> Exit {
     let config = Config {
         strategy,
         anytime: arguments.anytime,
-        budget: None,
         seed: arguments.seed,
         progress: Some(progress.counters()),
     };

@@ -49,8 +49,6 @@ pub struct Config {
     pub strategy: Strategy,
     /// Whether to go on for cheaper plans after the first.
     pub anytime: bool,
-    /// How many states may be expanded before the search gives up; any number without it.
-    pub budget: Option<u64>,
     /// Where randomness is used, it starts here.
     pub seed: u64,
     /// Where to count along, for someone who watches.
@@ -165,10 +163,26 @@ pub fn run(
     limits: &Limits,
     on_plan: &mut dyn FnMut(&[OperatorId], u64),
 ) -> Outcome {
+    run_in_turns(task, config, limits, on_plan, u64::MAX, &mut || None)
+}
+
+/// As [`run`], but when it has done the work `budget` it asks `more` how much it may do on top; without an answer it gives up.
+///
+/// Work is counted, not timed: an evaluation of a heuristic is as much as the task has operators, other things are measured by that.
+pub fn run_in_turns(
+    task: &Task,
+    config: &Config,
+    limits: &Limits,
+    on_plan: &mut dyn FnMut(&[OperatorId], u64),
+    budget: u64,
+    more: &mut dyn FnMut() -> Option<u64>,
+) -> Outcome {
     let mut run = Run {
         limits,
         progress: config.progress.as_deref(),
-        budget: config.budget.unwrap_or(u64::MAX),
+        budget,
+        work: 0,
+        more,
         statistics: Statistics::default(),
         on_plan,
         best: None,
@@ -267,7 +281,10 @@ enum End {
 struct Run<'a> {
     limits: &'a Limits,
     progress: Option<&'a Progress>,
+    /// How much work may be done, and how much has been.
     budget: u64,
+    work: u64,
+    more: &'a mut dyn FnMut() -> Option<u64>,
     statistics: Statistics,
     on_plan: &'a mut dyn FnMut(&[OperatorId], u64),
     /// The cost of the cheapest plan so far.
@@ -283,8 +300,13 @@ impl Run<'_> {
         if self.statistics.expanded.is_multiple_of(256) {
             self.publish(space);
         }
-        if self.statistics.expanded >= self.budget {
-            return Some(End::Spent);
+        self.work += space.task().operators.len() as u64 + 1;
+        if self.work >= self.budget {
+            self.publish(space);
+            match (self.more)() {
+                Some(more) => self.budget = self.budget.saturating_add(more),
+                None => return Some(End::Spent),
+            }
         }
         self.limits.stopped().map(End::Stopped)
     }

@@ -1,7 +1,8 @@
 //! A multi-agent domain and problem go in; a joint plan comes out: compiled, searched, decoded, merged, and validated under the joint semantics.
 //!
-//! Without a demand for optimality the small compilation comes first, which has shortcuts only; where it has no plan, or takes long,
-//! the complete one takes turns with it, each time with a larger budget. The turns count states, not seconds, so runs are repeatable.
+//! Without a demand for optimality the small compilation, which has shortcuts only, and the complete one are searched in turns.
+
+use std::sync::{Mutex, PoisonError};
 
 use lang::execute::Executor;
 use lang::execute::joint::Concurrency;
@@ -12,6 +13,7 @@ use planner::heuristics::Kind;
 use planner::search::{Config, Status, Strategy};
 
 use super::desk::Desk;
+use super::turns::{self, Turn, Way};
 use crate::args::{self, ConcurrencyName, ObjectiveName};
 use crate::exit::Exit;
 use crate::input::{self, Input};
@@ -19,9 +21,6 @@ use crate::limits::Watch;
 use crate::pipeline::{self, End, Obstacle, Ready};
 use crate::progress::Progress;
 use crate::terminal::Terminal;
-
-/// How many states the first turn may expand, times the operators of the task, since that is what an expansion takes; each round has four times as many.
-const FIRST_TURN: u64 = 20_000_000;
 
 /// Plans for several agents.
 pub(super) fn run(
@@ -38,7 +37,7 @@ pub(super) fn run(
         return Exit::Input;
     }
     let progress = Progress::start(terminal.watched);
-    let mut planning = Planning {
+    let planning = Planning {
         arguments,
         strategy,
         input,
@@ -46,7 +45,6 @@ pub(super) fn run(
         watch,
         progress: &progress,
         concurrency: concurrency(arguments.concurrency, input),
-        best: None,
     };
     let found = if arguments.optimal { planning.optimal() } else { planning.first() };
     let judge = Judge { input, executor, concurrency: planning.concurrency };
@@ -79,6 +77,10 @@ pub(crate) fn concurrency(asked: Option<ConcurrencyName>, input: &Input) -> Conc
     }
 }
 
+/// The tasks that are searched in turns.
+const SMALL: usize = 0;
+const COMPLETE: usize = 1;
+
 /// Why there was nothing to search.
 enum Failure {
     Obstacle(Obstacle),
@@ -99,7 +101,6 @@ struct Planning<'a> {
     watch: &'a Watch,
     progress: &'a Progress,
     concurrency: Concurrency,
-    best: Option<JointPlan>,
 }
 
 type Found = Result<(Option<JointPlan>, End), Failure>;
@@ -124,92 +125,117 @@ impl Planning<'_> {
     }
 
     fn stage(&self, compiled: Compiled) -> Result<Stage, Failure> {
+        self.ground(compiled).map_err(Failure::Obstacle)
+    }
+
+    fn ground(&self, compiled: Compiled) -> Result<Stage, Obstacle> {
         self.progress.phase("grounding");
         let task = pipeline::ground(&compiled.domain, &compiled.problem, self.watch);
-        let ready = task.map_err(Failure::Obstacle)?.ready();
+        let ready = task?.ready();
         self.progress.phase("searching");
         Ok(Stage { compiled, ready })
     }
 
-    fn search(&mut self, stage: &Stage, strategy: Strategy, budget: Option<u64>) -> End {
-        let config = Config {
+    fn config(&self, strategy: Strategy) -> Config {
+        Config {
             strategy,
             anytime: false,
-            budget,
             seed: self.arguments.seed,
             progress: Some(self.progress.counters()),
-        };
-        let mut last = None;
-        let end = pipeline::search(&stage.ready, &config, self.watch, |plan: Plan| {
-            last = Some(stage.compiled.decode(&plan));
-        });
-        self.best = last;
-        if std::env::var_os("CAVEAT_TRACE").is_some() { eprintln!("trace: {:?} {:?} exp {} in {:?} at {:?}", stage.compiled.domain.actions.len(), end.status, end.statistics.expanded, end.time, crate::limits::cpu_time()); }
-        end
+        }
     }
 
     /// A joint plan with as little as possible of what counts, proved to be one.
-    fn optimal(&mut self) -> Found {
+    fn optimal(&self) -> Found {
         let objective = self.objective();
         let (means, strategy) = match objective {
             Objective::Steps => (Means::Block, Strategy::AStar(Kind::Blind)),
             _ => (Means::Complete, self.strategy),
         };
-        let compiled = self.compile(means, Some(objective))?;
-        let complete = compiled.complete;
-        let stage = self.stage(compiled)?;
-        let end = self.search(&stage, strategy, None);
+        let stage = self.stage(self.compile(means, Some(objective))?)?;
+        let mut plan = None;
+        let end = pipeline::search(&stage.ready, &self.config(strategy), self.watch, |found| {
+            plan = Some(stage.compiled.decode(&found));
+        });
+        let optimal = end.optimal && stage.compiled.complete;
         // Merging changes neither the actions nor what they cost.
-        Ok((self.plan(), End { optimal: end.optimal && complete, ..end }))
+        Ok((plan.map(|plan| self.merged(&plan)), End { optimal, ..end }))
     }
 
     /// Some joint plan.
-    fn first(&mut self) -> Found {
+    fn first(&self) -> Found {
         let small = self.compile(Means::Shortcuts, None)?;
         let whole = small.complete;
-        let mut stages: Vec<Option<Stage>> = Vec::new();
-        match self.stage(small) {
-            Ok(stage) => stages.push(Some(stage)),
-            Err(Failure::Obstacle(Obstacle::Unreachable)) if !whole => stages.push(None),
+        let small = match self.stage(small) {
+            Ok(stage) => Some(stage),
+            Err(Failure::Obstacle(Obstacle::Unreachable)) if !whole => None,
             Err(failure) => return Err(failure),
+        };
+        let mut complete = None;
+        if !whole {
+            complete = Some(self.compile(Means::Complete, None)?);
         }
-        if whole {
-            let stage = stages[0].take().expect("it was put there");
-            let end = self.search(&stage, self.strategy, None);
-            return Ok((self.plan(), end));
-        }
-        let mut work = std::env::var("CF").map_or(FIRST_TURN, |t| t.parse().unwrap());
-        loop {
-            for turn in 0..2 {
-                if turn == stages.len() {
-                    let compiled = self.compile(Means::Complete, None)?;
-                    stages.push(Some(self.stage(compiled)?));
-                }
-                let Some(stage) = stages[turn].take() else { continue };
-                let share = if turn == 0 { work } else { work / 4 };
-                let turn_budget = (share / stage.ready.operators().max(1)).max(1);
-                let mut end = self.search(&stage, self.strategy, Some(turn_budget));
-                match end.status {
-                    Status::Spent => stages[turn] = Some(stage),
-                    Status::Unsolvable if turn == 0 => {}
-                    Status::Unsolvable if !stage.compiled.complete => {
-                        end.status = Status::Incomplete;
-                        return Ok((None, end));
-                    }
-                    _ => return Ok((self.plan(), end)),
-                }
+        let sure = complete.as_ref().is_none_or(|compiled| compiled.complete);
+        let complete = Mutex::new(complete);
+        let search = |way: &Way, turn: &mut Turn<'_>| {
+            if let (SMALL, Some(stage)) = (way.task, &small) {
+                return self.turn(stage, way.strategy, turn);
             }
-            work = work.saturating_mul(4);
+            let compiled = complete.lock().unwrap_or_else(PoisonError::into_inner).take();
+            match self.ground(compiled.expect("only one way searches the complete task")) {
+                Ok(stage) => self.turn(&stage, way.strategy, turn),
+                Err(obstacle) => turns::Outcome::Blocked(obstacle),
+            }
+        };
+        let ways = self.ways(small.is_some(), whole);
+        let outcome = turns::take(&ways, search, |way| whole || way.task == COMPLETE);
+        match outcome.expect("there is a way, and it ends") {
+            turns::Outcome::Ended(mut end, plan) => {
+                if end.status == Status::Unsolvable && !sure {
+                    end.status = Status::Incomplete;
+                }
+                Ok((plan.map(|plan| self.merged(&plan)), end))
+            }
+            turns::Outcome::Blocked(obstacle) => Err(Failure::Obstacle(obstacle)),
         }
     }
 
-    /// The plan that the last search found, in as few joint steps as merging gives.
-    fn plan(&mut self) -> Option<JointPlan> {
-        let plan = self.best.take()?;
-        let size = self.arguments.joint_size.map_or(usize::MAX, |size| size as usize);
-        Some(multiagent::merge(self.executor, &plan, self.concurrency, size))
+    /// What takes turns. What the command line asks for goes alone.
+    fn ways(&self, small: bool, whole: bool) -> Vec<Way> {
+        let strategy = self.strategy;
+        let mut ways = Vec::new();
+        if small {
+            ways.push(Way { task: SMALL, strategy, head_start: 64_000_000, share: 4 });
+            if strategy == Strategy::First {
+                ways.push(Way { task: SMALL, strategy: Strategy::Novelty, head_start: 0, share: 16 });
+            }
+        }
+        if !whole {
+            ways.push(Way { task: COMPLETE, strategy, head_start: 0, share: 2 });
+        }
+        ways
     }
 
+    /// Searches a task, in turns with others.
+    fn turn(
+        &self,
+        stage: &Stage,
+        strategy: Strategy,
+        turn: &mut Turn<'_>,
+    ) -> turns::Outcome<JointPlan> {
+        let mut plan = None;
+        let found = |plain: Plan| plan = Some(stage.compiled.decode(&plain));
+        let (config, work) = (self.config(strategy), turn.work);
+        let more = || (turn.next)();
+        let end = pipeline::search_in_turns(&stage.ready, &config, self.watch, found, work, more);
+        turns::Outcome::Ended(end, plan)
+    }
+
+    /// The same plan in as few joint steps as merging gives.
+    fn merged(&self, plan: &JointPlan) -> JointPlan {
+        let size = self.arguments.joint_size.map_or(usize::MAX, |size| size as usize);
+        multiagent::merge(self.executor, plan, self.concurrency, size)
+    }
 }
 
 /// Checks a joint plan before it is written.

@@ -31,6 +31,9 @@ pub fn profile() -> Profile {
 /// Pairs are looked at where there are no more variables than this, since every state has a pair for each two of them.
 const MOST_VARIABLES: usize = 400;
 
+/// The work for each variable of a new state, in comparison with that of a heuristic for each operator.
+const WORK: u64 = 6;
+
 /// Bytes that tables of pairs may take in all; states that would need a new one then have no novelty of two.
 const MOST_BYTES: usize = 1 << 30;
 
@@ -213,6 +216,7 @@ pub(super) fn search(space: &mut Space, run: &mut Run) -> End {
         run.statistics.expanded += 1;
         space.load(state, &mut values);
         space.applicable(&values, &mut operators);
+        run.work += operators.len() as u64 * task.variables.len() as u64 * WORK;
         for &operator in &operators {
             run.statistics.generated += 1;
             let (child, is_new) = space.successor(state, &values, operator);
