@@ -42,7 +42,7 @@ const MOST_BYTES: usize = 1 << 30;
 struct Way {
     /// Goals that do not hold.
     goals: u32,
-    /// Which relaxed plan counts.
+    /// Which relaxed plan counts; 0 for one that is still to be made, as it is when the state is expanded.
     plan: u32,
     /// Which of its first 128 facts have been achieved.
     achieved: u128,
@@ -139,24 +139,30 @@ impl Counter {
         self.goal.iter().filter(|fact| values[fact.variable.index()] != fact.value).count() as u32
     }
 
-    /// How far a state is with these goals left, when it is reached from one that is as far as `before`; none for a dead end.
-    fn way(&mut self, values: &[u32], goals: u32, before: Option<Way>) -> Option<Way> {
-        if let Some(before) = before.filter(|before| goals >= before.goals) {
-            let mut way = Way { goals, ..before };
-            for (at, fact) in self.plans[before.plan as usize].iter().enumerate() {
-                if values[fact.variable.index()] == fact.value {
-                    way.achieved |= 1 << at;
-                }
-            }
-            return Some(way);
+    /// How far a state is with these goals left, when it is reached from one that is as far as `before`.
+    fn way(&self, values: &[u32], goals: u32, before: Way) -> Way {
+        if goals < before.goals {
+            return Way { goals, ..Way::default() };
         }
+        let mut way = Way { goals, ..before };
+        for (at, fact) in self.plans[before.plan as usize].iter().enumerate() {
+            if values[fact.variable.index()] == fact.value {
+                way.achieved |= 1 << at;
+            }
+        }
+        way
+    }
+
+    /// Makes a relaxed plan for a state that has none; false for a dead end.
+    fn plan(&mut self, values: &[u32], way: &mut Way) -> bool {
         if self.ff.evaluate(values) == DEAD_END {
-            return None;
+            return false;
         }
         let mut facts = self.ff.achieves(&self.facts);
         facts.truncate(128);
         self.plans.push(facts);
-        Some(Way { goals, plan: self.plans.len() as u32 - 1, achieved: 0 })
+        way.plan = self.plans.len() as u32 - 1;
+        true
     }
 }
 
@@ -176,7 +182,7 @@ fn facts(task: &Task) -> Vec<Fact> {
 pub(super) fn search(space: &mut Space, run: &mut Run) -> End {
     let task = space.task();
     let (ff, goal, facts) = (Ff::new(task, Costs::Unit), task.goal.clone(), facts(task));
-    let mut counter = Counter { ff, goal, facts, plans: Vec::new() };
+    let mut counter = Counter { ff, goal, facts, plans: vec![Vec::new()] };
     let mut novelty = Novelty::new(task);
     let mut nodes = Nodes::default();
     let mut ways: Segmented<Way> = Segmented::new(Way::default());
@@ -188,10 +194,11 @@ pub(super) fn search(space: &mut Space, run: &mut Run) -> End {
     let initial = space.initial();
     space.load(initial, &mut values);
     let goals = counter.goals(&values);
-    let Some(way) = counter.way(&values, goals, None) else {
+    let mut way = Way { goals, ..Way::default() };
+    if !counter.plan(&values, &mut way) {
         run.initial(DEAD_END);
         return End::Exhausted;
-    };
+    }
     run.initial(goals);
     nodes.set(initial, Node { status: Status::Open, cost: 0, parent: initial });
     ways.push(way);
@@ -212,9 +219,17 @@ pub(super) fn search(space: &mut Space, run: &mut Run) -> End {
             return end;
         }
         let state = StateId(state);
-        let before = ways.get(state.index());
-        run.statistics.expanded += 1;
+        let mut before = ways.get(state.index());
         space.load(state, &mut values);
+        if before.plan == 0 {
+            run.statistics.evaluated += 1;
+            if !counter.plan(&values, &mut before) {
+                run.statistics.dead_ends += 1;
+                continue;
+            }
+            ways.set(state.index(), before);
+        }
+        run.statistics.expanded += 1;
         space.applicable(&values, &mut operators);
         run.work += operators.len() as u64 * task.variables.len() as u64 * WORK;
         for &operator in &operators {
@@ -228,13 +243,8 @@ pub(super) fn search(space: &mut Space, run: &mut Run) -> End {
             if space.is_goal(&child_values) {
                 return run.solved(space, child, |state| nodes.parent(state));
             }
-            run.statistics.evaluated += 1;
             let goals = counter.goals(&child_values);
-            let Some(way) = counter.way(&child_values, goals, Some(before)) else {
-                run.statistics.dead_ends += 1;
-                ways.push(before);
-                continue;
-            };
+            let way = counter.way(&child_values, goals, before);
             ways.push(way);
             if goals < best {
                 best = goals;
