@@ -32,7 +32,7 @@ pub fn profile() -> Profile {
 const MOST_VARIABLES: usize = 400;
 
 /// The work for each variable of a new state, in comparison with that of a heuristic for each operator.
-const WORK: u64 = 6;
+const WORK: u64 = 2;
 
 /// Bytes that tables of pairs may take in all; states that would need a new one then have no novelty of two.
 const MOST_BYTES: usize = 1 << 30;
