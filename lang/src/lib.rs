@@ -34,6 +34,7 @@ pub mod execute;
 pub mod validate;
 pub mod print;
 pub mod format;
+pub mod write;
 pub mod allow;
 pub mod mend;
 pub mod render;

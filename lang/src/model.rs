@@ -80,6 +80,37 @@ pub enum Requirement {
     UnfactoredPrivacy,
 }
 
+impl Requirement {
+    /// As it is written.
+    pub fn keyword(self) -> &'static str {
+        match self {
+            Self::Strips => ":strips",
+            Self::Typing => ":typing",
+            Self::Equality => ":equality",
+            Self::NegativePreconditions => ":negative-preconditions",
+            Self::DisjunctivePreconditions => ":disjunctive-preconditions",
+            Self::ExistentialPreconditions => ":existential-preconditions",
+            Self::UniversalPreconditions => ":universal-preconditions",
+            Self::ConditionalEffects => ":conditional-effects",
+            Self::DerivedPredicates => ":derived-predicates",
+            Self::ActionCosts => ":action-costs",
+            Self::NumericFluents => ":numeric-fluents",
+            Self::ObjectFluents => ":object-fluents",
+            Self::DurativeActions => ":durative-actions",
+            Self::DurationInequalities => ":duration-inequalities",
+            Self::ContinuousEffects => ":continuous-effects",
+            Self::TimedInitialLiterals => ":timed-initial-literals",
+            Self::Preferences => ":preferences",
+            Self::Constraints => ":constraints",
+            Self::Time => ":time",
+            Self::Hierarchy => ":hierarchy",
+            Self::MultiAgent => ":multi-agent",
+            Self::FactoredPrivacy => ":factored-privacy",
+            Self::UnfactoredPrivacy => ":unfactored-privacy",
+        }
+    }
+}
+
 /// A part of the language that is used and not yet resolved, so that nothing can run what stands there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Use {
