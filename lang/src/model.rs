@@ -196,6 +196,17 @@ pub struct Object {
     pub name: Name,
     /// Its types; several with `either`, which for an object means that it is of all of them.
     pub types: Vec<TypeId>,
+    /// Whose it is, if it is private.
+    pub holder: Option<Holder>,
+}
+
+/// Whose a private object is, in MA-PDDL.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Holder {
+    /// The agent to which the file belongs, in the factored form.
+    File,
+    /// This agent, which may be the object itself.
+    Agent(ObjectId),
 }
 
 /// A variable: a parameter or one bound by a quantifier.

@@ -13,8 +13,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::format::format;
 use crate::model::{
-    Action, ActionId, Axiom, Domain, Function, Object, ObjectId, Predicate, PredicateId, Problem,
-    Requirement, Term, VariableId,
+    Action, ActionId, Axiom, Domain, Function, Holder, Object, ObjectId, Predicate, PredicateId,
+    Problem, Requirement, Term, VariableId,
 };
 
 pub use requirement::{of_domain, of_problem};
@@ -119,23 +119,34 @@ impl<'m> Writer<'m> {
         let types = self.domain.types.iter().skip(1);
         let entries: Vec<Entry<'_>> =
             types.map(|of| (of.name.text.as_str(), of.parents.as_slice())).collect();
-        self.section(":types", &entries);
+        if !entries.is_empty() {
+            let groups = list::groups(&self.domain.types, &entries, false);
+            self.push(&format!("(:types\n{})\n", groups.join("\n")));
+        }
     }
 
-    fn objects(&mut self, keyword: &str, objects: &[Object]) {
-        let entries: Vec<Entry<'_>> =
-            objects.iter().map(|one| (one.name.text.as_str(), one.types.as_slice())).collect();
-        self.section(keyword, &entries);
-    }
-
-    /// A section that is a typed list, with each group on a line.
-    fn section(&mut self, keyword: &str, entries: &[Entry<'_>]) {
-        if entries.is_empty() {
+    /// The public objects, then those of each agent.
+    fn objects(&mut self, keyword: &str, objects: &'m [Object]) {
+        if objects.is_empty() {
             return;
         }
-        self.push(&format!("({keyword}\n"));
-        self.push(&list::groups(&self.domain.types, entries, false).join("\n"));
-        self.push(")\n");
+        let (public, private): (Vec<&'m Object>, Vec<&'m Object>) =
+            objects.iter().partition(|object| object.holder.is_none());
+        let mut all = self.typed_objects(&public);
+        for group in private.chunk_by(|one, other| one.holder == other.holder) {
+            all.push_str("\n(:private");
+            if let Some(Holder::Agent(agent)) = group[0].holder {
+                all.push_str(&format!(" {}", self.objects[agent.index()].name.text));
+            }
+            all.push_str(&format!("\n{})", self.typed_objects(group)));
+        }
+        self.push(&format!("({keyword}\n{})\n", all.trim_start()));
+    }
+
+    fn typed_objects(&self, objects: &[&'m Object]) -> String {
+        let entry = |object: &&'m Object| (object.name.text.as_str(), object.types.as_slice());
+        let entries: Vec<Entry<'_>> = objects.iter().map(entry).collect();
+        list::groups(&self.domain.types, &entries, false).join("\n")
     }
 
     /// The predicates, those that belong to the same agents together.
@@ -151,7 +162,9 @@ impl<'m> Writer<'m> {
             let owner = group[0].owner.as_ref();
             if let Some(owner) = owner {
                 let agent = list::groups(&self.domain.types, &[(agent, &owner.types)], false);
-                self.push(&format!("(:private {}\n", agent.join(" ")));
+                let named = !owner.types.is_empty();
+                self.push("(:private");
+                self.push(&if named { format!(" {}\n", agent.join(" ")) } else { "\n".to_owned() });
             }
             for predicate in group {
                 if let Some(comment) = style.predicates.get(&PredicateId(id)) {
@@ -170,7 +183,7 @@ impl<'m> Writer<'m> {
     /// The declaration of a predicate, in which the agent that owns it, and nothing else, is called `agent`.
     fn predicate(&mut self, predicate: &Predicate, agent: &str) {
         let mut variables = Variables::new(&predicate.parameters);
-        if let Some(owner) = &predicate.owner {
+        if let Some(owner) = predicate.owner.as_ref().filter(|owner| !owner.types.is_empty()) {
             variables.reserve(agent);
             if let Some(position) = owner.position {
                 variables.call(VariableId(position as u32), agent);

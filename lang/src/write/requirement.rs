@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::model::{Domain, Formula, NodeKind, Problem, Requirement};
+use crate::model::{Domain, Formula, Holder, NodeKind, Object, Problem, Requirement};
 
 /// The requirements of a domain: `:strips` if it needs nothing.
 pub fn of_domain(domain: &Domain) -> BTreeSet<Requirement> {
@@ -41,22 +41,36 @@ pub fn of_domain(domain: &Domain) -> BTreeSet<Requirement> {
 pub fn of_problem(domain: &Domain, problem: &Problem) -> BTreeSet<Requirement> {
     let mut needed = BTreeSet::new();
     of_formula(&problem.goal, &mut needed);
+    of_objects(&problem.objects, &mut needed);
     &needed - &of_domain(domain)
 }
 
 /// Agents, and how their privacy is written, which also says what agents may do at one time.
 fn privacy(domain: &Domain, needed: &mut BTreeSet<Requirement>) {
+    let factored = domain.requirements.contains(&Requirement::FactoredPrivacy);
     let owned = domain.predicates.iter().any(|predicate| predicate.owner.is_some());
-    let agents = owned || domain.is_multi_agent();
-    let declared = |one: &Requirement| domain.requirements.contains(one);
-    if agents {
-        needed.insert(Requirement::MultiAgent);
-    }
-    if owned || agents && declared(&Requirement::UnfactoredPrivacy) {
-        needed.insert(Requirement::UnfactoredPrivacy);
-    }
-    if declared(&Requirement::FactoredPrivacy) {
+    if factored {
         needed.insert(Requirement::FactoredPrivacy);
+    } else if owned || domain.is_multi_agent() {
+        needed.insert(Requirement::MultiAgent);
+        let declared = domain.requirements.contains(&Requirement::UnfactoredPrivacy);
+        needed.extend((owned || declared).then_some(Requirement::UnfactoredPrivacy));
+    }
+    of_objects(&domain.constants, needed);
+}
+
+/// What private objects need.
+fn of_objects(objects: &[Object], needed: &mut BTreeSet<Requirement>) {
+    for object in objects {
+        match object.holder {
+            Some(Holder::File) => {
+                needed.insert(Requirement::FactoredPrivacy);
+            }
+            Some(Holder::Agent(_)) => {
+                needed.extend([Requirement::MultiAgent, Requirement::UnfactoredPrivacy]);
+            }
+            None => {}
+        }
     }
 }
 

@@ -74,7 +74,7 @@ fn round(domain: &str, problem: &str) -> Option<Result<(), String>> {
     for (before, after) in &pairs {
         let differing = before.lines().zip(after.lines()).find(|(one, other)| one != other);
         if let Some((one, other)) = differing {
-            out += &format!("{one}\nbecomes\n{other}\n");
+            out.extend([one, "\nbecomes\n", other, "\n"]);
         } else if before != after {
             out.push_str("something is written that was not there, or left out\n");
         }

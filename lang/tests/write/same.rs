@@ -27,7 +27,7 @@ pub fn domain(domain: &Domain) -> String {
     types.sort();
     line(&mut out, &types);
     for constant in &domain.constants {
-        line(&mut out, (&constant.name.text, names(domain, &constant.types)));
+        line(&mut out, (&constant.name.text, names(domain, &constant.types), constant.holder));
     }
     for predicate in &domain.predicates {
         let owner = predicate.owner.as_ref();
@@ -53,7 +53,7 @@ pub fn domain(domain: &Domain) -> String {
 pub fn problem(domain: &Domain, problem: &Problem) -> String {
     let mut out = format!("{}\n", problem.name.text);
     for object in &problem.objects {
-        line(&mut out, (&object.name.text, names(domain, &object.types)));
+        line(&mut out, (&object.name.text, names(domain, &object.types), object.holder));
     }
     line(&mut out, &problem.init);
     for value in &problem.values {
