@@ -131,14 +131,20 @@ impl<'m> Writer<'m> {
             return;
         }
         let (public, private): (Vec<&'m Object>, Vec<&'m Object>) =
-            objects.iter().partition(|object| object.holder.is_none());
+            objects.iter().partition(|object| match object.holder {
+                // A constant cannot name an agent that only the problem knows.
+                Some(Holder::Agent(agent)) => agent.index() >= self.objects.len(),
+                Some(Holder::File) => false,
+                None => true,
+            });
         let mut all = self.typed_objects(&public);
         for group in private.chunk_by(|one, other| one.holder == other.holder) {
-            all.push_str("\n(:private");
-            if let Some(Holder::Agent(agent)) = group[0].holder {
-                all.push_str(&format!(" {}", self.objects[agent.index()].name.text));
-            }
-            all.push_str(&format!("\n{})", self.typed_objects(group)));
+            let agent = match group[0].holder {
+                Some(Holder::Agent(agent)) => self.objects[agent.index()].name.text.as_str(),
+                _ => "",
+            };
+            let objects = self.typed_objects(group);
+            all.extend(["\n(:private ", agent, "\n", &objects, ")"]);
         }
         self.push(&format!("({keyword}\n{})\n", all.trim_start()));
     }

@@ -1,5 +1,6 @@
 //! A model that is written reads as the same model again, and without a word about it.
 
+mod factored;
 mod same;
 
 use std::collections::BTreeMap;

@@ -1,10 +1,11 @@
 //! A model goes in; a text comes out that is the same for models that differ only in spans, in the names of variables and in the order of types.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{Debug, Write};
 
 use lang::execute::joint::Concurrency;
-use lang::model::{Action, Domain, Formula, Problem, Scope, TypeId, Variable};
+use lang::model::{Action, Domain, Formula, Holder, Problem, Scope, TypeId, Variable};
+use lang::write::{self, Style};
 
 /// All that a domain says.
 pub fn domain(domain: &Domain) -> String {
@@ -61,6 +62,51 @@ pub fn problem(domain: &Domain, problem: &Problem) -> String {
     }
     line(&mut out, formula(domain, &problem.goal_scope, &problem.goal));
     line(&mut out, problem.metric.as_ref().map(|metric| metric.function));
+    out
+}
+
+/// What a task says, each thing by the names that stand in it, so that the order does not count.
+pub fn statements(domain: &Domain, problem: &Problem) -> BTreeSet<String> {
+    let named = |id: &lang::model::ObjectId| problem.objects[id.index()].name.text.clone();
+    let list = |ids: &[lang::model::ObjectId]| ids.iter().map(named).collect::<Vec<_>>().join(" ");
+    let mut out = BTreeSet::new();
+    for of in &domain.types {
+        out.insert(format!("type {} of {}", of.name.text, names(domain, &of.parents)));
+    }
+    for (id, object) in problem.objects.iter().enumerate() {
+        let constant = if id < domain.constants.len() { "constant" } else { "object" };
+        let holder = match object.holder {
+            Some(Holder::Agent(id)) => named(&id),
+            other => format!("{other:?}"),
+        };
+        let types = names(domain, &object.types);
+        out.insert(format!("{constant} {} of {types} held by {holder}", object.name.text));
+    }
+    for predicate in &domain.predicates {
+        let owner = predicate.owner.as_ref();
+        let owner = owner.map(|owner| (owner.position, names(domain, &owner.types)));
+        let parameters = parameters(domain, &predicate.parameters);
+        out.insert(format!("predicate {} {parameters:?} {owner:?}", predicate.name.text));
+    }
+    for function in &domain.functions {
+        let parameters = parameters(domain, &function.parameters);
+        out.insert(format!("function {} {parameters:?}", function.name.text));
+    }
+    for action in &domain.actions {
+        let alone = Domain { actions: vec![action.clone()], ..domain.clone() };
+        let text = write::domain(&alone, &Style::default());
+        out.insert(text[text.find("(:action").expect("it is there")..].to_owned());
+    }
+    for fact in &problem.init {
+        let name = &domain.predicates[fact.predicate.index()].name.text;
+        out.insert(format!("({name} {})", list(&fact.arguments)));
+    }
+    for value in &problem.values {
+        let name = &domain.functions[value.function.index()].name.text;
+        out.insert(format!("(= ({name} {}) {})", list(&value.arguments), value.value));
+    }
+    let text = write::problem(domain, problem, &Style::default());
+    out.insert(text[text.find("(:goal").expect("it is there")..].to_owned());
     out
 }
 
