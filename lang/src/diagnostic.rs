@@ -88,6 +88,8 @@ pub mod static_predicate;
 pub mod unread_predicate;
 pub mod agent_without_multi_agent;
 pub mod private_access;
+pub mod parts_disagree;
+pub mod agent_list_mismatch;
 pub mod unknown_constraint;
 pub mod constraint_position;
 pub mod subtask_arity;
@@ -196,6 +198,8 @@ pub const RULES: &[Rule] = &[
     unread_predicate::RULE,
     agent_without_multi_agent::RULE,
     private_access::RULE,
+    parts_disagree::RULE,
+    agent_list_mismatch::RULE,
     unknown_constraint::RULE,
     constraint_position::RULE,
     subtask_arity::RULE,

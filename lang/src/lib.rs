@@ -35,6 +35,8 @@ pub mod multiagent;
 pub mod validate;
 pub mod print;
 pub mod format;
+pub mod write;
+pub mod factored;
 pub mod allow;
 pub mod mend;
 pub mod render;

@@ -80,6 +80,37 @@ pub enum Requirement {
     UnfactoredPrivacy,
 }
 
+impl Requirement {
+    /// As it is written.
+    pub fn keyword(self) -> &'static str {
+        match self {
+            Self::Strips => ":strips",
+            Self::Typing => ":typing",
+            Self::Equality => ":equality",
+            Self::NegativePreconditions => ":negative-preconditions",
+            Self::DisjunctivePreconditions => ":disjunctive-preconditions",
+            Self::ExistentialPreconditions => ":existential-preconditions",
+            Self::UniversalPreconditions => ":universal-preconditions",
+            Self::ConditionalEffects => ":conditional-effects",
+            Self::DerivedPredicates => ":derived-predicates",
+            Self::ActionCosts => ":action-costs",
+            Self::NumericFluents => ":numeric-fluents",
+            Self::ObjectFluents => ":object-fluents",
+            Self::DurativeActions => ":durative-actions",
+            Self::DurationInequalities => ":duration-inequalities",
+            Self::ContinuousEffects => ":continuous-effects",
+            Self::TimedInitialLiterals => ":timed-initial-literals",
+            Self::Preferences => ":preferences",
+            Self::Constraints => ":constraints",
+            Self::Time => ":time",
+            Self::Hierarchy => ":hierarchy",
+            Self::MultiAgent => ":multi-agent",
+            Self::FactoredPrivacy => ":factored-privacy",
+            Self::UnfactoredPrivacy => ":unfactored-privacy",
+        }
+    }
+}
+
 /// A part of the language that is used and not yet resolved, so that nothing can run what stands there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Use {
@@ -165,6 +196,17 @@ pub struct Object {
     pub name: Name,
     /// Its types; several with `either`, which for an object means that it is of all of them.
     pub types: Vec<TypeId>,
+    /// Whose it is, if it is private.
+    pub holder: Option<Holder>,
+}
+
+/// Whose a private object is, in MA-PDDL.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Holder {
+    /// The agent to which the file belongs, in the factored form.
+    File,
+    /// This agent, which may be the object itself.
+    Agent(ObjectId),
 }
 
 /// A variable: a parameter or one bound by a quantifier.

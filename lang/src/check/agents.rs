@@ -9,11 +9,11 @@ use super::{Report, World, domain, hierarchy, name};
 use crate::ast::{Agent, Concurrency, Feature, Group, Name, Participant, Predicates, TypedList};
 use crate::diagnostic::{
     agent_without_multi_agent, constraint_position, private_access, unexpected_item,
-    unknown_action, unknown_constraint, unknown_type,
+    unknown_action, unknown_constraint, unknown_object, unknown_type,
 };
 use crate::model::{
-    ActionAtom, Formula, FunctionId, Node, NodeKind, Object, Owner, PredicateId, Term, TypeId,
-    Variable, VariableId,
+    ActionAtom, Formula, FunctionId, Holder, Node, NodeKind, Object, ObjectId, Owner, PredicateId,
+    Term, TypeId, Variable, VariableId,
 };
 use crate::near::nearest;
 use crate::source::Span;
@@ -163,8 +163,11 @@ pub(super) fn owner(
         if !report.declared.factored() {
             let expected = "the agent whose predicates these are, such as `?a - agent`";
             report.push(unexpected_item::missing_item(expected, keyword.span));
+            return None;
         }
-        return None;
+        // It is private to the agent whose file this is.
+        let owner = Owner { position: None, types: Vec::new(), span: keyword.span };
+        return Some((String::new(), owner));
     };
     let types = hierarchy::resolve(types, &names.types, "`:types`", report);
     let variable = Variable { name: name(spelling), types: types.clone() };
@@ -181,39 +184,58 @@ pub(super) fn private_objects<'a>(
     names: &mut super::Names<'a>,
     report: &mut Report<'_>,
 ) {
-    let mut owners = Vec::new();
+    let mut owned = Vec::new();
     for private in &list.private {
         need(private.keyword, report);
         let mut groups = private.groups.clone();
+        let mut owner = None;
         if !report.declared.factored()
             && let Some(first) = groups.first_mut()
         {
             // The first name is that of the agent: `(:private truck1 crate1 - crate)`.
-            owners.push(first.names.remove(0));
+            let agent = first.names.remove(0);
             if first.names.is_empty() && first.types.is_some() {
                 // It is declared right here: `(:private truck1 - truck)`.
-                first.names.extend(owners.pop());
+                first.names.push(agent);
             }
+            owner = Some(agent);
         }
         groups.retain(|group| !group.names.is_empty());
         let list = TypedList { groups, private: Vec::new() };
+        let first = table.len();
         domain::objects(&list, what, place, table, names, report);
+        owned.push((owner, first..table.len()));
     }
     // An agent may be declared after what is private to it.
-    for owner in owners {
-        if names.objects.find(owner.text).is_some() {
-            let id = names.objects.find(owner.text).expect("it was found just now");
-            report.found(owner, crate::model::ObjectId(id));
-        } else if names.types.find(owner.text).is_none() {
-            report.lost(owner, Namespace::Object);
-            let near = report.nearest(owner.text, &names.objects);
-            if report.first(&crate::diagnostic::unknown_object::RULE, owner.text) {
-                report.push(crate::diagnostic::unknown_object::unknown_object(
-                    owner.text, owner.span, place, near,
-                ));
-            }
+    for (owner, objects) in owned {
+        let holder = match owner {
+            Some(owner) => holder(owner, place, names, report),
+            None => Some(Holder::File),
+        };
+        table[objects].iter_mut().for_each(|object| object.holder = holder);
+    }
+}
+
+/// The agent that a `(:private …)` of a file of all agents names.
+fn holder(
+    owner: Name<'_>,
+    place: &str,
+    names: &super::Names<'_>,
+    report: &mut Report<'_>,
+) -> Option<Holder> {
+    if let Some(id) = names.objects.find(owner.text).map(ObjectId) {
+        report.found(owner, id);
+        return Some(Holder::Agent(id));
+    }
+    if names.types.find(owner.text).is_none() {
+        report.lost(owner, Namespace::Object);
+        let near = report.nearest(owner.text, &names.objects);
+        if report.first(&unknown_object::RULE, owner.text) {
+            let diagnostic = unknown_object::unknown_object(owner.text, owner.span, place, near);
+            report.push(diagnostic);
         }
     }
+    None
 }
 
 /// Warns of a private predicate of which the acting agent is not the owner.

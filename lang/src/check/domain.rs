@@ -301,7 +301,7 @@ pub(super) fn objects<'a>(
             }
             report.declared(spelling, ObjectId(table.len() as u32));
             names.objects.insert(spelling.text, table.len() as u32);
-            table.push(Object { name: name(spelling), types: types.clone() });
+            table.push(Object { name: name(spelling), types: types.clone(), holder: None });
         }
     }
     if !list.private.is_empty() {

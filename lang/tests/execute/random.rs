@@ -294,6 +294,7 @@ fn problem(arities: &[usize], tape: &mut Tape) -> Problem {
         .map(|at| Object {
             name: name(format!("o{at}")),
             types: vec![TypeId(tape.below(4) as u32)],
+            holder: None,
         })
         .collect();
     let mut init = Vec::new();

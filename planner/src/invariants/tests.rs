@@ -86,7 +86,11 @@ impl Sketch {
             action: ActionId(self.normal.schemas.len() as u32),
             variables: names
                 .iter()
-                .map(|name| Variable { name: (*name).to_owned(), types: vec![TypeId(0)] })
+                .map(|name| Variable {
+                    name: (*name).to_owned(),
+                    types: vec![TypeId(0)],
+                    holder: None,
+                })
                 .collect(),
             parameters,
             bound: parameters,
@@ -182,7 +186,7 @@ impl Sketch {
             objects: self
                 .objects
                 .iter()
-                .map(|text| Object { name: name(text), types: vec![TypeId(0)] })
+                .map(|text| Object { name: name(text), types: vec![TypeId(0)], holder: None })
                 .collect(),
             init: self.init.clone(),
             values: Vec::new(),
