@@ -264,6 +264,10 @@ pub struct Validate {
     /// The domain, unless it lies beside the problem, the problem, and plans; `-` is the standard input.
     #[arg(required = true, num_args = 2.., value_name = "FILE")]
     pub files: Vec<PathBuf>,
+    /// Several agents: whether a part of a joint step may destroy the precondition of another. By default only where action atoms
+    /// say what excludes what.
+    #[arg(long, value_name = "MODE")]
+    pub concurrency: Option<ConcurrencyName>,
     /// How diagnostics look.
     #[arg(long, value_name = "FORMAT", default_value = "full")]
     pub output_format: OutputFormat,

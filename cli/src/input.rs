@@ -5,13 +5,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use lang::diagnostic::{Diagnostic, Diagnostics, Severity, not_utf8, unsupported_feature};
+use lang::execute::joint::Concurrency;
 use lang::model::{Domain, Problem};
 use lang::portability::{self, Tool};
 use lang::source::{SourceId, Sources, Span};
 use lang::{Kind, allow, lint, mend, render};
 use planner::normalize::Unsupported;
 
-use crate::args::OutputFormat;
+use crate::args::{ConcurrencyName, OutputFormat};
 use crate::exit::Exit;
 use crate::files::{self, Complaint};
 use crate::terminal::Terminal;
@@ -394,6 +395,15 @@ pub fn load(
         return Err(Refusal::Unsupported);
     }
     Ok(Input { reader, domain, problem })
+}
+
+/// What the command line asks for, or else what the domain means.
+pub fn concurrency(asked: Option<ConcurrencyName>, input: &Input) -> Concurrency {
+    match asked {
+        Some(ConcurrencyName::Liberal) => Concurrency::Liberal,
+        Some(ConcurrencyName::Safe) => Concurrency::Safe,
+        None => Concurrency::of(&input.domain),
+    }
 }
 
 /// How often fixes are applied at most, since one may uncover another.

@@ -3,8 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use lang::Kind;
+use lang::diagnostic::Diagnostic;
 use lang::execute::Executor;
-use lang::validate::{self, Verdict};
+use lang::execute::joint::Concurrency;
+use lang::plan::Listing;
+use lang::validate::{self, Verdict, joint};
 
 use crate::args::Validate;
 use crate::exit::Exit;
@@ -90,37 +93,58 @@ fn one(
         terminal.line("Bad plan description!");
         return Ok(false);
     }
-    let verdict = match Executor::new(&input.domain, &input.problem) {
-        Ok(executor) => validate::judge(&executor, &listing.plan),
+    let executor = match Executor::new(&input.domain, &input.problem) {
+        Ok(executor) => executor,
         Err(unstratified) => {
-            let mut diagnostics = lang::diagnostic::Diagnostics::default();
-            diagnostics.push(unstratified.diagnostic(&input.domain));
-            terminal.talk(input::rendered(
-                &input.reader.sources,
-                &diagnostics,
-                arguments.output_format,
-                terminal.colour,
-            ));
+            let diagnostic = unstratified.diagnostic(&input.domain);
+            input.report(diagnostic, arguments.output_format, terminal);
             return Err(Complaint::new("the derived predicates of this domain have no meaning"));
         }
     };
-    terminal.data(validate::lines(&verdict));
-    if let Verdict::Invalid(failure) = &verdict {
-        terminal.data(validate::story(&verdict, &input.domain, &input.problem, &listing.plan));
-        let mut diagnostics = lang::diagnostic::Diagnostics::default();
-        diagnostics.push(failure.diagnostic(
-            &input.domain,
-            &input.problem,
-            &listing.plan,
-            &listing.spans,
-        ));
-        terminal.talk(input::rendered(
-            &input.reader.sources,
-            &diagnostics,
-            arguments.output_format,
-            terminal.colour,
-        ));
-        return Ok(false);
-    }
-    Ok(true)
+    let judged = if input.domain.is_multi_agent() {
+        let concurrency = input::concurrency(arguments.concurrency, input);
+        together(&executor, &listing, concurrency)
+    } else {
+        alone(&executor, &listing)
+    };
+    terminal.data(judged.lines);
+    let Some((story, diagnostic)) = judged.failure else { return Ok(true) };
+    terminal.data(story);
+    input.report(diagnostic, arguments.output_format, terminal);
+    Ok(false)
+}
+
+/// What there is to print about a plan.
+struct Judged {
+    /// VAL's lines.
+    lines: String,
+    /// The story of the failure, and the same as a diagnostic.
+    failure: Option<(String, Diagnostic)>,
+}
+
+fn alone(executor: &Executor<'_>, listing: &Listing) -> Judged {
+    let (domain, problem) = (executor.domain(), executor.problem());
+    let verdict = validate::judge(executor, &listing.plan);
+    let failure = match &verdict {
+        Verdict::Valid(_) => None,
+        Verdict::Invalid(failure) => Some((
+            validate::story(&verdict, domain, problem, &listing.plan),
+            failure.diagnostic(domain, problem, &listing.plan, &listing.spans),
+        )),
+    };
+    Judged { lines: validate::lines(&verdict), failure }
+}
+
+fn together(executor: &Executor<'_>, listing: &Listing, concurrency: Concurrency) -> Judged {
+    let (domain, problem) = (executor.domain(), executor.problem());
+    let (plan, spans) = listing.joint();
+    let verdict = joint::judge(executor, &plan, concurrency);
+    let failure = match &verdict {
+        joint::Verdict::Valid(_) => None,
+        joint::Verdict::Invalid(failure) => Some((
+            joint::story(&verdict, domain, problem, &plan),
+            failure.diagnostic(domain, problem, &plan, &spans),
+        )),
+    };
+    Judged { lines: joint::lines(&verdict), failure }
 }

@@ -111,6 +111,13 @@ impl Requirement {
     }
 }
 
+impl Requirement {
+    /// Whether it is about several agents.
+    pub fn is_of_agents(self) -> bool {
+        matches!(self, Self::MultiAgent | Self::FactoredPrivacy | Self::UnfactoredPrivacy)
+    }
+}
+
 /// A part of the language that is used and not yet resolved, so that nothing can run what stands there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Use {

@@ -218,9 +218,8 @@ fn tokens(
 fn counter(world: &World<'_>, size: usize, assembly: &mut Assembly) -> Counter {
     let span = world.domain.name.span;
     let name = |text: String| crate::model::Name { text, span };
-    let taken = |text: &str| {
-        world.domain.types.iter().any(|one| one.name.text.eq_ignore_ascii_case(text))
-    };
+    let taken =
+        |text: &str| world.domain.types.iter().any(|one| one.name.text.eq_ignore_ascii_case(text));
     let mut text = "part-count".to_owned();
     while taken(&text) {
         text.push('-');
@@ -235,16 +234,22 @@ fn counter(world: &World<'_>, size: usize, assembly: &mut Assembly) -> Counter {
     let one = |name: &str, assembly: &Assembly| assembly.variable(name, &[number]);
     let count = assembly.predicate("part-count-is", vec![one("?n", assembly)]);
     let next = assembly.predicate("part-next", vec![one("?n", assembly), one("?m", assembly)]);
+    let zero = assembly.predicate("part-zero", vec![one("?n", assembly)]);
     let first = assembly.problem.objects.len() as u32;
+    assembly.init(zero, &[ObjectId(first)]);
     for at in 0..=size {
         let types = vec![number];
-        assembly.problem.objects.push(Object { name: name(format!("part-{at}")), types });
+        assembly.problem.objects.push(Object {
+            name: name(format!("part-{at}")),
+            types,
+            holder: None,
+        });
         if at > 0 {
             let this = first + at as u32;
             assembly.init(next, &[ObjectId(this - 1), ObjectId(this)]);
         }
     }
-    Counter { count, next, number, zero: Term::Object(ObjectId(first)) }
+    Counter { count, next, number, zero }
 }
 
 /// Adds an action for each team.

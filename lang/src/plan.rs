@@ -3,7 +3,9 @@
 mod read;
 mod write;
 mod joint;
+mod gantt;
 
+pub use gantt::gantt;
 pub use joint::{JointPlan, write_joint};
 pub use read::{Listing, read};
 pub use write::{line, write};

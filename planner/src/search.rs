@@ -130,7 +130,13 @@ pub struct Profile {
 
 /// The profiles of all engines.
 pub fn list() -> Vec<Profile> {
-    vec![astar::profile(), eager::profile(), lazy::profile(), breadth::profile(), novelty::profile()]
+    vec![
+        astar::profile(),
+        eager::profile(),
+        lazy::profile(),
+        breadth::profile(),
+        novelty::profile(),
+    ]
 }
 
 /// The strategy that is run for a configuration: one that names an engine.

@@ -6,15 +6,17 @@ use std::sync::{Mutex, PoisonError};
 
 use lang::execute::Executor;
 use lang::execute::joint::Concurrency;
+use lang::model::ObjectId;
 use lang::multiagent::{self, Compiled, Means, Objective, Options};
-use lang::plan::{JointPlan, Plan};
+use lang::plan::{JointPlan, Plan, Step};
 use lang::validate::joint::{self as judge, Success, Verdict};
 use planner::heuristics::Kind;
 use planner::search::{Config, Status, Strategy};
+use serde_json::json;
 
 use super::desk::Desk;
 use super::turns::{self, Turn, Way};
-use crate::args::{self, ConcurrencyName, ObjectiveName};
+use crate::args::{self, JointFormat, ObjectiveName};
 use crate::exit::Exit;
 use crate::input::{self, Input};
 use crate::limits::Watch;
@@ -44,10 +46,11 @@ pub(super) fn run(
         executor,
         watch,
         progress: &progress,
-        concurrency: concurrency(arguments.concurrency, input),
+        concurrency: input::concurrency(arguments.concurrency, input),
     };
     let found = if arguments.optimal { planning.optimal() } else { planning.first() };
-    let judge = Judge { input, executor, concurrency: planning.concurrency };
+    let format = arguments.joint_format;
+    let judge = Judge { input, executor, concurrency: planning.concurrency, format };
     drop(progress);
     let (plan, end) = match found {
         Ok(found) => found,
@@ -65,16 +68,11 @@ pub(super) fn run(
         judge.take(&plan, &mut desk, terminal);
     }
     let (written, failure) = (desk.written() > 0, desk.failure);
-    failure.unwrap_or_else(|| super::conclude(&end, written, arguments.anytime, watch, terminal))
-}
-
-/// What the command line asks for, or else what the domain means.
-pub(crate) fn concurrency(asked: Option<ConcurrencyName>, input: &Input) -> Concurrency {
-    match asked {
-        Some(ConcurrencyName::Liberal) => Concurrency::Liberal,
-        Some(ConcurrencyName::Safe) => Concurrency::Safe,
-        None => Concurrency::of(&input.domain),
+    if written && failure.is_none() && format == JointFormat::Json {
+        // The output is one document.
+        return Exit::Done;
     }
+    failure.unwrap_or_else(|| super::conclude(&end, written, arguments.anytime, watch, terminal))
 }
 
 /// The tasks that are searched in turns.
@@ -207,7 +205,12 @@ impl Planning<'_> {
         if small {
             ways.push(Way { task: SMALL, strategy, head_start: 64_000_000, share: 4 });
             if strategy == Strategy::First {
-                ways.push(Way { task: SMALL, strategy: Strategy::Novelty, head_start: 0, share: 16 });
+                ways.push(Way {
+                    task: SMALL,
+                    strategy: Strategy::Novelty,
+                    head_start: 0,
+                    share: 16,
+                });
             }
         }
         if !whole {
@@ -243,6 +246,7 @@ struct Judge<'a> {
     input: &'a Input,
     executor: &'a Executor<'a>,
     concurrency: Concurrency,
+    format: JointFormat,
 }
 
 impl Judge<'_> {
@@ -262,11 +266,21 @@ impl Judge<'_> {
 
     fn print(&self, plan: &JointPlan, success: &Success, terminal: &mut Terminal) {
         let (domain, problem) = (&self.input.domain, &self.input.problem);
+        if self.format == JointFormat::Json {
+            let document = self.document(plan, success);
+            terminal.line(serde_json::to_string_pretty(&document).expect("it is plain data"));
+            terminal.flush();
+            return;
+        }
         terminal.line("Solution found!");
-        for (at, parts) in plan.steps.iter().enumerate() {
-            let lines: Vec<String> =
-                parts.iter().map(|part| lang::plan::line(part, domain, problem)).collect();
-            terminal.line(format_args!("{at}: {}", lines.join(" ")));
+        if self.format == JointFormat::Gantt {
+            terminal.data(lang::plan::gantt(plan, domain, problem));
+        } else {
+            for (at, parts) in plan.steps.iter().enumerate() {
+                let lines: Vec<String> =
+                    parts.iter().map(|part| lang::plan::line(part, domain, problem)).collect();
+                terminal.line(format_args!("{at}: {}", lines.join(" ")));
+            }
         }
         terminal.line(format_args!(
             "Plan length: {} joint step(s), {} action(s).",
@@ -274,5 +288,28 @@ impl Judge<'_> {
         ));
         terminal.line(format_args!("Plan cost: {}", success.cost.normalize()));
         terminal.flush();
+    }
+
+    /// The joint plan as data.
+    fn document(&self, plan: &JointPlan, success: &Success) -> serde_json::Value {
+        let (domain, problem) = (&self.input.domain, &self.input.problem);
+        let name = |object: ObjectId| problem.objects[object.index()].name.text.clone();
+        let part = |part: &Step| {
+            json!({
+                "agent": self.executor.agent(part).map(name),
+                "action": domain.actions[part.action.index()].name.text,
+                "arguments": part.arguments.iter().map(|&object| name(object)).collect::<Vec<_>>(),
+            })
+        };
+        let steps: Vec<Vec<_>> =
+            plan.steps.iter().map(|parts| parts.iter().map(part).collect()).collect();
+        json!({
+            "domain": domain.name.text,
+            "problem": problem.name.text,
+            "steps": steps,
+            "joint_steps": success.steps,
+            "actions": success.actions,
+            "cost": success.cost.normalize().to_string(),
+        })
     }
 }

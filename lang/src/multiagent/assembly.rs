@@ -57,9 +57,14 @@ impl Assembly {
         compiled.actions.clear();
         compiled.signatures.clear();
         compiled.predicates.iter_mut().for_each(|predicate| predicate.owner = None);
+        compiled.requirements.retain(|one| !one.is_of_agents());
+        let mut problem = problem.clone();
+        for object in compiled.constants.iter_mut().chain(&mut problem.objects) {
+            object.holder = None;
+        }
         let (roles, notes) = (Vec::new(), BTreeMap::new());
         let span = domain.name.span;
-        Self { domain: compiled, problem: problem.clone(), roles, notes, span }
+        Self { domain: compiled, problem, roles, notes, span }
     }
 
     fn name(&self, text: String) -> Name {
@@ -74,9 +79,8 @@ impl Assembly {
     /// A new predicate, called `name` or nearly so.
     pub(super) fn predicate(&mut self, name: &str, parameters: Vec<Variable>) -> PredicateId {
         let predicates = &self.domain.predicates;
-        let free = |name: &str| {
-            predicates.iter().all(|one| !one.name.text.eq_ignore_ascii_case(name))
-        };
+        let free =
+            |name: &str| predicates.iter().all(|one| !one.name.text.eq_ignore_ascii_case(name));
         let name = self.name(unused(name, free));
         self.domain.predicates.push(Predicate { name, parameters, derived: false, owner: None });
         PredicateId(self.domain.predicates.len() as u32 - 1)
@@ -97,12 +101,17 @@ impl Assembly {
     /// The function that costs are counted in: a new one, which the metric asks for from now on.
     pub(super) fn count(&mut self) -> FunctionId {
         let functions = &self.domain.functions;
-        let free = |name: &str| {
-            functions.iter().all(|one| !one.name.text.eq_ignore_ascii_case(name))
-        };
+        let free =
+            |name: &str| functions.iter().all(|one| !one.name.text.eq_ignore_ascii_case(name));
         let name = self.name(unused("total-cost", free));
         let (parameters, values) = (Vec::new(), None);
-        self.domain.functions.push(Function { name, parameters, values, read: None, assigned: false });
+        self.domain.functions.push(Function {
+            name,
+            parameters,
+            values,
+            read: None,
+            assigned: false,
+        });
         let function = FunctionId(self.domain.functions.len() as u32 - 1);
         self.problem.metric = Some(Metric { function, span: self.span });
         self.problem.values.push(crate::model::FunctionValue {
@@ -118,8 +127,7 @@ impl Assembly {
     pub(super) fn action(&mut self, draft: Draft, role: Role) {
         let Draft { name, mut scope, precondition, effects, increases, note } = draft;
         let actions = &self.domain.actions;
-        let free =
-            |name: &str| actions.iter().all(|one| !one.name.text.eq_ignore_ascii_case(name));
+        let free = |name: &str| actions.iter().all(|one| !one.name.text.eq_ignore_ascii_case(name));
         let name = self.name(unused(&name, free));
         let mut bound = HashSet::new();
         let precondition = freshen(Condition::all(precondition), &mut scope, &mut bound);
@@ -128,7 +136,8 @@ impl Assembly {
         let mut list = Vec::new();
         for (variables, condition, literals) in effects {
             let condition = freshen(condition, &mut scope, &mut bound);
-            let key = if condition == Condition::TRUE { String::new() } else { format!("{condition:?}") };
+            let key =
+                if condition == Condition::TRUE { String::new() } else { format!("{condition:?}") };
             let literals: Vec<Literal> = literals
                 .into_iter()
                 .filter(|(atom, positive)| {
@@ -184,11 +193,7 @@ fn unused(name: &str, free: impl Fn(&str) -> bool) -> String {
 }
 
 /// The same condition, in which no quantifier binds a variable that another one has bound before.
-fn freshen(
-    condition: Condition,
-    scope: &mut Scope,
-    bound: &mut HashSet<VariableId>,
-) -> Condition {
+fn freshen(condition: Condition, scope: &mut Scope, bound: &mut HashSet<VariableId>) -> Condition {
     let mut each = |parts: Vec<Condition>, scope: &mut Scope| {
         parts.into_iter().map(|part| freshen(part, scope, bound)).collect::<Vec<_>>()
     };

@@ -44,7 +44,7 @@ pub(super) struct Counter {
     pub(super) count: PredicateId,
     pub(super) next: PredicateId,
     pub(super) number: TypeId,
-    pub(super) zero: Term,
+    pub(super) zero: PredicateId,
 }
 
 /// A pattern of action atoms that must be false: the action, and which of its arguments are given.
@@ -123,9 +123,8 @@ impl Block<'_> {
                         let schema = self.schema(at);
                         let mut parameters = schema.parameters().to_vec();
                         let variables = effect.variables.iter();
-                        parameters.extend(
-                            variables.map(|id| schema.scope.variables[id.index()].clone()),
-                        );
+                        parameters
+                            .extend(variables.map(|id| schema.scope.variables[id.index()].clone()));
                         let name = format!("fires-{}-{}", schema.name, number + 1);
                         assembly.predicate(&name, parameters)
                     })
@@ -134,8 +133,8 @@ impl Block<'_> {
             })
             .collect();
         let (patterns, marks) = (Vec::new(), self.marks(assembly));
-        let broken =
-            (!marks.is_empty()).then(|| assembly.predicate(&format!("broken-{suffix}"), Vec::new()));
+        let broken = (!marks.is_empty())
+            .then(|| assembly.predicate(&format!("broken-{suffix}"), Vec::new()));
         let mut stage =
             Stage { selecting, checking: None, applying, chosen, patterns, broken, marks, fires };
         self.patterns(&mut stage, assembly);
@@ -282,8 +281,8 @@ impl Block<'_> {
             let same = atom.arguments.iter().zip(0..count).map(|(&argument, at)| {
                 condition::equal(argument, Term::Variable(VariableId(at)), true)
             });
-            let is_own = (atom.action.index() == own)
-                .then(|| Condition::all(same.collect::<Vec<_>>()));
+            let is_own =
+                (atom.action.index() == own).then(|| Condition::all(same.collect::<Vec<_>>()));
             let chosen = Atom { predicate: stage.chosen[place], arguments: atom.arguments };
             let chosen = Condition::Atom(chosen, holds);
             match is_own {
@@ -325,7 +324,9 @@ impl Block<'_> {
             let agent = self.declare(&mut draft.scope, "?other");
             let predicate = if pending { tokens.pending } else { tokens.free };
             let atom = Atom { predicate, arguments: vec![Term::Variable(agent)] };
-            draft.precondition.push(Condition::forall(vec![agent], Condition::Atom(atom, !pending)));
+            draft
+                .precondition
+                .push(Condition::forall(vec![agent], Condition::Atom(atom, !pending)));
         }
         if let Some(nobody) = tokens.nobody {
             let atom = Atom { predicate: nobody[usize::from(pending)], arguments: Vec::new() };
@@ -342,10 +343,8 @@ impl Block<'_> {
         let agent = self.declare(&mut draft.scope, "?other");
         let other = Term::Variable(agent);
         let order = if after { vec![own, other] } else { vec![other, own] };
-        let before = Condition::Atom(
-            Atom { predicate: self.tokens.before, arguments: order },
-            false,
-        );
+        let before =
+            Condition::Atom(Atom { predicate: self.tokens.before, arguments: order }, false);
         let predicate = if pending { self.tokens.pending } else { self.tokens.free };
         let done = Condition::Atom(Atom { predicate, arguments: vec![other] }, !pending);
         draft.precondition.push(Condition::forall(vec![agent], Condition::any([before, done])));
@@ -370,8 +369,13 @@ impl Block<'_> {
         begin.needs(fact(self.tokens.idle), true);
         begin.makes(fact(self.tokens.idle), false);
         begin.makes(fact(stage.selecting), true);
-        if let Some(Counter { count, zero, .. }) = &self.tokens.counter {
-            begin.makes(Atom { predicate: *count, arguments: vec![*zero] }, true);
+        if let Some(Counter { count, zero, number, .. }) = &self.tokens.counter {
+            let variable = self.declare(&mut begin.scope, "?n");
+            begin.scope.variables[variable.index()].types = vec![*number];
+            begin.scope.parameters = 1;
+            let none = vec![Term::Variable(variable)];
+            begin.needs(Atom { predicate: *zero, arguments: none.clone() }, true);
+            begin.makes(Atom { predicate: *count, arguments: none }, true);
         }
         if self.objective == Objective::Steps {
             begin.increases.extend(self.price(1));
@@ -433,9 +437,8 @@ impl Block<'_> {
             let bound: Vec<VariableId> =
                 (first..end.scope.variables.len() as u32).map(VariableId).collect();
             let arguments: Vec<Term> = bound.iter().map(|&id| Term::Variable(id)).collect();
-            let marks = pair.map(|predicate| {
-                (Atom { predicate, arguments: arguments.clone() }, false)
-            });
+            let marks =
+                pair.map(|predicate| (Atom { predicate, arguments: arguments.clone() }, false));
             end.effects.push((bound, Condition::TRUE, marks.to_vec()));
         }
     }
@@ -463,8 +466,11 @@ impl Block<'_> {
         }
         for part in self.schema(at).precondition.conjuncts() {
             if let Some((pattern, terms)) = self.pattern(at, part) {
-                let (_, [used, forbidden]) =
-                    stage.patterns.iter().find(|(known, _)| *known == pattern).expect("it was found");
+                let (_, [used, forbidden]) = stage
+                    .patterns
+                    .iter()
+                    .find(|(known, _)| *known == pattern)
+                    .expect("it was found");
                 draft.needs(Atom { predicate: *used, arguments: terms.clone() }, false);
                 draft.makes(Atom { predicate: *forbidden, arguments: terms }, true);
             } else if !part.some(|leaf| matches!(leaf, Condition::Action(..))) {
@@ -500,9 +506,8 @@ impl Block<'_> {
         (count, next, number): (PredicateId, PredicateId, TypeId),
     ) -> Vec<Term> {
         let own = self.schema(at).scope.parameters;
-        let shift = |id: VariableId| {
-            Term::Variable(VariableId(if id.0 < own { id.0 } else { id.0 + 2 }))
-        };
+        let shift =
+            |id: VariableId| Term::Variable(VariableId(if id.0 < own { id.0 } else { id.0 + 2 }));
         let term = |term: Term| match term {
             Term::Variable(id) => shift(id),
             object @ Term::Object(_) => object,
@@ -511,10 +516,8 @@ impl Block<'_> {
             text: text.to_owned(),
             span: self.world.domain.name.span,
         };
-        let added = ["?n", "?m"].map(|text| crate::model::Variable {
-            name: name(text),
-            types: vec![number],
-        });
+        let added = ["?n", "?m"]
+            .map(|text| crate::model::Variable { name: name(text), types: vec![number] });
         draft.scope.variables.splice(own as usize..own as usize, added);
         draft.scope.parameters = own + 2;
         let conditions = std::mem::take(&mut draft.precondition);
@@ -594,8 +597,11 @@ impl Block<'_> {
         }
         for part in self.schema(at).precondition.conjuncts() {
             if let Some((pattern, terms)) = self.pattern(at, part) {
-                let (_, [_, forbidden]) =
-                    stage.patterns.iter().find(|(known, _)| *known == pattern).expect("it was found");
+                let (_, [_, forbidden]) = stage
+                    .patterns
+                    .iter()
+                    .find(|(known, _)| *known == pattern)
+                    .expect("it was found");
                 draft.makes(Atom { predicate: *forbidden, arguments: terms }, false);
             }
         }

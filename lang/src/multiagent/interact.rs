@@ -29,9 +29,7 @@ pub(super) fn groups(finder: &Finder<'_>) -> Vec<Vec<usize>> {
             }
         }
     }
-    let alone = |group: &[NodeIndex]| {
-        group.len() == 1 && !graph.contains_edge(group[0], group[0])
-    };
+    let alone = |group: &[NodeIndex]| group.len() == 1 && !graph.contains_edge(group[0], group[0]);
     let mut groups: Vec<Vec<usize>> = kosaraju_scc(&graph)
         .into_iter()
         .filter(|group| !alone(group))
@@ -144,10 +142,8 @@ fn excluded(
     let shift = left.scope.parameters;
     let arguments = |from: u32, to: u32| (from..to).map(|at| Term::Variable(VariableId(at)));
     let first = Member { schema: one, arguments: arguments(0, shift).collect() };
-    let second = Member {
-        schema: other,
-        arguments: arguments(shift, variables.len() as u32).collect(),
-    };
+    let second =
+        Member { schema: other, arguments: arguments(shift, variables.len() as u32).collect() };
     let mut team = Team { variables, members: vec![first, second] };
     if atom.predicate == against.predicate {
         for (&mine, &theirs) in atom.arguments.iter().zip(&against.arguments) {
@@ -158,7 +154,8 @@ fn excluded(
                 }
                 Term::Variable(_) => None,
             };
-            if let (Some(mine), Some(theirs)) = (place(mine, left, 0), place(theirs, right, shift)) {
+            if let (Some(mine), Some(theirs)) = (place(mine, left, 0), place(theirs, right, shift))
+            {
                 unify(&mut team, mine, theirs);
             }
         }

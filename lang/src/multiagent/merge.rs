@@ -17,7 +17,8 @@ pub fn merge(
     concurrency: Concurrency,
     size: usize,
 ) -> JointPlan {
-    let mut merger = Merger { executor, concurrency, states: vec![executor.initial()], steps: Vec::new() };
+    let mut merger =
+        Merger { executor, concurrency, states: vec![executor.initial()], steps: Vec::new() };
     for parts in &plan.steps {
         if !merger.join(parts, size) {
             let mut state = merger.last().clone();

@@ -116,7 +116,8 @@ fn conflicts(
     for mine in &own.effects {
         for literal in &mine.literals {
             for theirs in &other.effects {
-                let opposite = theirs.literals.iter().filter(|one| one.positive != literal.positive);
+                let opposite =
+                    theirs.literals.iter().filter(|one| one.positive != literal.positive);
                 for against in opposite {
                     if !may_meet(world, (own, &literal.atom), (other, &against.atom)) {
                         continue;
@@ -185,8 +186,7 @@ fn never(
     against: &Atom,
 ) -> Condition {
     // Both sides get variables of their own, since each binder must have its own.
-    let own_bound: Vec<VariableId> =
-        (0..scope.variables.len() as u32).map(VariableId).collect();
+    let own_bound: Vec<VariableId> = (0..scope.variables.len() as u32).map(VariableId).collect();
     let own = copy_bound(scope, &own_bound, &mine.0);
     let (variables, condition) = mine;
     let first = scope.variables.len() as u32;

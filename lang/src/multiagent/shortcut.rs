@@ -83,9 +83,8 @@ pub(super) fn shortcut(finder: &Finder<'_>, team: &Team, before: PredicateId) ->
                 }
                 number @ Expression::Number(_) => number.clone(),
             };
-            let bound = terms(
-                &increase.variables.iter().map(|&id| Term::Variable(id)).collect::<Vec<_>>(),
-            );
+            let bound =
+                terms(&increase.variables.iter().map(|&id| Term::Variable(id)).collect::<Vec<_>>());
             increases.push(Increase {
                 variables: bound
                     .into_iter()

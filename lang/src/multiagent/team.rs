@@ -241,15 +241,17 @@ impl Finder<'_> {
             match self.wants(&team) {
                 Wants::Impossible => {}
                 Wants::Atoms(atoms) => {
-                    let joined = atoms.iter().rev().filter_map(|(of, atom)| {
-                        team.with(*of, atom, (self.world, self.schemas))
-                    });
+                    let joined = atoms
+                        .iter()
+                        .rev()
+                        .filter_map(|(of, atom)| team.with(*of, atom, (self.world, self.schemas)));
                     open.extend(joined.collect::<Vec<_>>());
                 }
                 Wants::Nothing(choices) => {
-                    let joined = choices.iter().rev().filter_map(|(of, atom)| {
-                        team.with(*of, atom, (self.world, self.schemas))
-                    });
+                    let joined = choices
+                        .iter()
+                        .rev()
+                        .filter_map(|(of, atom)| team.with(*of, atom, (self.world, self.schemas)));
                     open.extend(joined.collect::<Vec<_>>());
                     teams.push(team);
                 }

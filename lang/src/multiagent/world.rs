@@ -22,9 +22,8 @@ impl<'a> World<'a> {
 
     /// Whether some object is of one of `types` and of one of `others`.
     pub(super) fn overlap(&self, types: &[TypeId], others: &[TypeId]) -> bool {
-        let both = |object| {
-            self.domain.has_type(object, types) && self.domain.has_type(object, others)
-        };
+        let both =
+            |object| self.domain.has_type(object, types) && self.domain.has_type(object, others);
         self.problem.objects.iter().any(both)
     }
 
@@ -108,9 +107,8 @@ impl Simplifier<'_> {
         }
         // A variable that nothing mentions asks only whether there is an object.
         let idle = |variable: &VariableId| !body.mentions(*variable);
-        let empty = |variable: &VariableId| {
-            self.world.count(&self.variables[variable.index()].types) == 0
-        };
+        let empty =
+            |variable: &VariableId| self.world.count(&self.variables[variable.index()].types) == 0;
         if variables.iter().any(|variable| idle(variable) && empty(variable)) {
             return Condition::FALSE;
         }
@@ -125,8 +123,8 @@ impl Simplifier<'_> {
             [(left, right), (right, left)].into_iter().find_map(|(term, other)| {
                 let Term::Variable(variable) = term else { return None };
                 let types = &self.variables[variable.index()].types;
-                let fits = variables.contains(&variable)
-                    && self.world.covers(types, self.types(other));
+                let fits =
+                    variables.contains(&variable) && self.world.covers(types, self.types(other));
                 fits.then_some((variable, other))
             })
         })
