@@ -18,6 +18,12 @@ use planner::task::OperatorId;
 
 use crate::limits::{Watch, cpu_time};
 
+/// Whether conditions of a domain become axioms that it does not have itself, which may make grounding long.
+pub fn has_many_axioms(domain: &Domain, problem: &Problem) -> bool {
+    let normal = normalize::normalize(domain, problem);
+    normal.is_ok_and(|normal| normal.rules.len() > domain.axioms.len())
+}
+
 /// A ground task.
 #[derive(Debug)]
 pub struct Task {
@@ -83,6 +89,13 @@ impl Task {
     pub fn ready(self) -> Ready {
         let decoder = self.encoded.decoder(self.grounded);
         Ready { task: self.encoded.task, decoder }
+    }
+}
+
+impl Ready {
+    /// How many operators the task has.
+    pub fn operators(&self) -> u64 {
+        self.task.operators.len() as u64
     }
 }
 

@@ -1,8 +1,9 @@
 //! `caveat plan`: a domain and a problem go in; a plan file, Fast Downward's lines and its exit code come out.
 
 mod desk;
-mod joint;
 mod turns;
+mod joint;
+mod better;
 
 use std::str::FromStr;
 

@@ -14,6 +14,7 @@ use planner::heuristics::Kind;
 use planner::search::{Config, Status, Strategy};
 use serde_json::json;
 
+use super::better::Effort;
 use super::desk::Desk;
 use super::turns::{self, Turn, Way};
 use crate::args::{self, JointFormat, ObjectiveName};
@@ -48,9 +49,15 @@ pub(super) fn run(
         progress: &progress,
         concurrency: input::concurrency(arguments.concurrency, input),
     };
-    let found = if arguments.optimal { planning.optimal() } else { planning.first() };
     let format = arguments.joint_format;
     let judge = Judge { input, executor, concurrency: planning.concurrency, format };
+    let found = if arguments.optimal {
+        planning.optimal()
+    } else {
+        let mut take =
+            |plan: &JointPlan| progress.suspend(|| judge.take(plan, &mut desk, terminal));
+        planning.satisficing(&mut take)
+    };
     drop(progress);
     let (plan, end) = match found {
         Ok(found) => found,
@@ -80,32 +87,33 @@ const SMALL: usize = 0;
 const COMPLETE: usize = 1;
 
 /// Why there was nothing to search.
-enum Failure {
+pub(super) enum Failure {
     Obstacle(Obstacle),
     Refused(multiagent::Refusal),
 }
 
 /// A compilation, ready to be searched.
-struct Stage {
-    compiled: Compiled,
-    ready: Ready,
+pub(super) struct Stage {
+    pub(super) compiled: Compiled,
+    pub(super) ready: Ready,
 }
 
-struct Planning<'a> {
+/// What a planning run knows.
+pub(super) struct Planning<'a> {
     arguments: &'a args::Plan,
     strategy: Strategy,
     input: &'a Input,
-    executor: &'a Executor<'a>,
-    watch: &'a Watch,
+    pub(super) executor: &'a Executor<'a>,
+    pub(super) watch: &'a Watch,
     progress: &'a Progress,
-    concurrency: Concurrency,
+    pub(super) concurrency: Concurrency,
 }
 
 type Found = Result<(Option<JointPlan>, End), Failure>;
 
 impl Planning<'_> {
     /// What is to be minimised.
-    fn objective(&self) -> Objective {
+    pub(super) fn objective(&self) -> Objective {
         match self.arguments.objective {
             Some(ObjectiveName::Steps) => Objective::Steps,
             Some(ObjectiveName::Actions) => Objective::Actions,
@@ -115,14 +123,18 @@ impl Planning<'_> {
         }
     }
 
-    fn compile(&self, means: Means, objective: Option<Objective>) -> Result<Compiled, Failure> {
+    pub(super) fn compile(
+        &self,
+        means: Means,
+        objective: Option<Objective>,
+    ) -> Result<Compiled, Failure> {
         let size = self.arguments.joint_size.map(|size| size as usize);
         let options = Options { concurrency: self.concurrency, size, means, objective };
         multiagent::compile(&self.input.domain, &self.input.problem, &options)
             .map_err(Failure::Refused)
     }
 
-    fn stage(&self, compiled: Compiled) -> Result<Stage, Failure> {
+    pub(super) fn stage(&self, compiled: Compiled) -> Result<Stage, Failure> {
         self.ground(compiled).map_err(Failure::Obstacle)
     }
 
@@ -134,7 +146,7 @@ impl Planning<'_> {
         Ok(Stage { compiled, ready })
     }
 
-    fn config(&self, strategy: Strategy) -> Config {
+    pub(super) fn config(&self, strategy: Strategy) -> Config {
         Config {
             strategy,
             anytime: false,
@@ -147,7 +159,7 @@ impl Planning<'_> {
     fn optimal(&self) -> Found {
         let objective = self.objective();
         let (means, strategy) = match objective {
-            Objective::Steps => (Means::Block, Strategy::AStar(Kind::Blind)),
+            Objective::Steps => (Means::Block, Strategy::AStar(self.bound(objective))),
             _ => (Means::Complete, self.strategy),
         };
         let stage = self.stage(self.compile(means, Some(objective))?)?;
@@ -160,11 +172,46 @@ impl Planning<'_> {
         Ok((plan.map(|plan| self.merged(&plan)), End { optimal, ..end }))
     }
 
+    /// What bounds the distance from below when plans are to be optimal: that a block has begun is all that other heuristics see of joint steps.
+    pub(super) fn bound(&self, objective: Objective) -> Kind {
+        if objective == Objective::Steps { Kind::Blind } else { Kind::LmCut }
+    }
+
+    /// A joint plan, and better ones as far as is asked. Those that come before the last one of an anytime run go to `take`.
+    fn satisficing(&self, take: &mut dyn FnMut(&JointPlan)) -> Found {
+        let mut small = None;
+        let (plan, end) = self.first(&mut small)?;
+        let Some(plan) = plan else { return Ok((None, end)) };
+        let anytime = self.arguments.anytime;
+        // A small task is solved for good in no time; more is done for whoever asks for it.
+        let effort = match (anytime, self.arguments.objective) {
+            (true, _) => Effort { others: Some(64_000_000), optimal: None, operators: u64::MAX },
+            (false, Some(_)) => {
+                Effort { others: Some(64_000_000), optimal: Some(64_000_000), operators: 20_000 }
+            }
+            (false, None) if self.strategy == Strategy::First => {
+                Effort { others: None, optimal: Some(2_000_000), operators: 500 }
+            }
+            (false, None) => return Ok((Some(plan), end)),
+        };
+        let mut best = plan.clone();
+        if anytime {
+            take(&plan);
+        }
+        let optimal = self.improve(plan, small.as_ref(), effort, &mut |better| {
+            if anytime {
+                take(better);
+            }
+            best.clone_from(better);
+        });
+        Ok(((!anytime).then_some(best), End { optimal, ..end }))
+    }
+
     /// Some joint plan.
-    fn first(&self) -> Found {
-        let small = self.compile(Means::Shortcuts, None)?;
-        let whole = small.complete;
-        let small = match self.stage(small) {
+    fn first(&self, small: &mut Option<Stage>) -> Found {
+        let compiled = self.compile(Means::Shortcuts, None)?;
+        let whole = compiled.complete;
+        *small = match self.stage(compiled) {
             Ok(stage) => Some(stage),
             Err(Failure::Obstacle(Obstacle::Unreachable)) if !whole => None,
             Err(failure) => return Err(failure),
@@ -175,8 +222,9 @@ impl Planning<'_> {
         }
         let sure = complete.as_ref().is_none_or(|compiled| compiled.complete);
         let complete = Mutex::new(complete);
+        let small = small.as_ref();
         let search = |way: &Way, turn: &mut Turn<'_>| {
-            if let (SMALL, Some(stage)) = (way.task, &small) {
+            if let (SMALL, Some(stage)) = (way.task, small) {
                 return self.turn(stage, way.strategy, turn);
             }
             let compiled = complete.lock().unwrap_or_else(PoisonError::into_inner).take();
@@ -235,7 +283,7 @@ impl Planning<'_> {
     }
 
     /// The same plan in as few joint steps as merging gives.
-    fn merged(&self, plan: &JointPlan) -> JointPlan {
+    pub(super) fn merged(&self, plan: &JointPlan) -> JointPlan {
         let size = self.arguments.joint_size.map_or(usize::MAX, |size| size as usize);
         multiagent::merge(self.executor, plan, self.concurrency, size)
     }

@@ -41,7 +41,8 @@ impl Effect {
 }
 
 impl Schema {
-    fn new(id: ActionId, action: &Action) -> Option<Self> {
+    fn new(id: ActionId, actions: &[Action]) -> Option<Self> {
+        let action = &actions[id.index()];
         let effects = action.effects.iter().map(|effect| {
             Some(Effect {
                 variables: effect.variables.clone(),
@@ -49,12 +50,13 @@ impl Schema {
                 literals: effect.literals.clone(),
             })
         });
+        let precondition = Condition::new(&action.precondition)?;
         Some(Self {
             id,
             name: action.name.text.clone(),
             scope: action.scope.clone(),
             agent: action.agent,
-            precondition: Condition::new(&action.precondition)?,
+            precondition: if action.agent { others(precondition, actions) } else { precondition },
             clashes: Vec::new(),
             effects: effects.collect::<Option<_>>()?,
             increases: action.increases.clone(),
@@ -77,12 +79,46 @@ impl Schema {
     }
 }
 
+/// The precondition of an agent's action without what need not be said: that another one is the agent itself, or does not act.
+/// The agent itself does nothing but the action, which does not count.
+fn others(condition: Condition, actions: &[Action]) -> Condition {
+    let own = Term::Variable(VariableId(0));
+    match condition {
+        Condition::All(parts) => {
+            Condition::all(parts.into_iter().map(|part| others(part, actions)))
+        }
+        Condition::Forall(variables, body) => Condition::forall(variables, others(*body, actions)),
+        Condition::Exists(variables, body) => Condition::exists(variables, others(*body, actions)),
+        Condition::Any(parts) => {
+            let idle: Vec<Term> = parts
+                .iter()
+                .filter_map(|part| match part {
+                    Condition::Action(atom, false) if actions[atom.action.index()].agent => {
+                        atom.arguments.first().copied()
+                    }
+                    _ => None,
+                })
+                .collect();
+            let said = |part: &Condition| match *part {
+                Condition::Equal(one, other, true) => {
+                    one == own && idle.contains(&other) || other == own && idle.contains(&one)
+                }
+                _ => false,
+            };
+            Condition::any(
+                parts.into_iter().filter(|part| !said(part)).map(|part| others(part, actions)),
+            )
+        }
+        leaf => leaf,
+    }
+}
+
 /// The schemas of `world`'s domain. Nothing if a condition is nested too deep. Also whether they say exactly what the semantics does,
 /// and not more: with [`Concurrency::Safe`], every fact of a precondition is protected, even where another one would do instead.
 pub(super) fn schemas(world: &World<'_>, concurrency: Concurrency) -> Option<(Vec<Schema>, bool)> {
-    let actions = world.domain.actions.iter().enumerate();
-    let mut schemas = actions
-        .map(|(at, action)| Schema::new(ActionId(at as u32), action))
+    let actions = &world.domain.actions;
+    let mut schemas = (0..actions.len() as u32)
+        .map(|at| Schema::new(ActionId(at), actions))
         .collect::<Option<Vec<_>>>()?;
     let plain = schemas.clone();
     let mut exact = true;
