@@ -168,6 +168,8 @@ struct Names<'a> {
     actions: Index<'a>,
     /// The tasks, likewise.
     tasks: Index<'a>,
+    /// The actions that conditions or constraints name, likewise.
+    asked: BTreeSet<u32>,
 }
 
 impl World<'_, '_> {

@@ -39,6 +39,7 @@ pub fn domain(domain: &Domain) -> Diagnostics {
             named(&axiom.scope, &owner, |named| named.formula(&axiom.body), &mut found);
         }
     }
+    let guarded = effect::guarded(domain);
     for action in &domain.actions {
         let place = place(&action.scope);
         condition::check(&action.precondition, place, &mut found);
@@ -51,7 +52,7 @@ pub fn domain(domain: &Domain) -> Diagnostics {
             let owner = format!("action `{}`", action.name.text);
             named(&action.scope, &owner, |named| named.action(action), &mut found);
             if !contradictory {
-                effect::check(action, &mut found);
+                effect::check(action, &guarded, &mut found);
             }
         }
     }
