@@ -208,7 +208,7 @@ fn describe_types(table: &[model::Type], types: &[TypeId]) -> String {
 }
 
 /// Parameters as they are declared: `?a - block ?b`.
-fn describe_parameters(table: &[model::Type], parameters: &[Variable]) -> String {
+pub(crate) fn describe_parameters(table: &[model::Type], parameters: &[Variable]) -> String {
     let shown = parameters.iter().map(|parameter| {
         if parameter.types.is_empty() || parameter.types == [OBJECT] {
             return parameter.name.text.clone();

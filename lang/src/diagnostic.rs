@@ -90,6 +90,11 @@ pub mod agent_without_multi_agent;
 pub mod private_access;
 pub mod unknown_constraint;
 pub mod constraint_position;
+pub mod conflicting_effects;
+pub mod shared_fact;
+pub mod impossible_action_atom;
+pub mod ambiguous_action;
+pub mod idle_action_atom;
 pub mod subtask_arity;
 pub mod unknown_task;
 pub mod unknown_subtask;
@@ -198,6 +203,11 @@ pub const RULES: &[Rule] = &[
     private_access::RULE,
     unknown_constraint::RULE,
     constraint_position::RULE,
+    conflicting_effects::RULE,
+    shared_fact::RULE,
+    impossible_action_atom::RULE,
+    ambiguous_action::RULE,
+    idle_action_atom::RULE,
     subtask_arity::RULE,
     unknown_task::RULE,
     unknown_subtask::RULE,

@@ -13,6 +13,7 @@ mod requirement;
 mod action;
 mod initial;
 mod factor;
+mod agents;
 
 use hashbrown::HashMap;
 
@@ -59,6 +60,7 @@ pub fn domain(domain: &Domain) -> Diagnostics {
     // What is not resolved may use any predicate.
     if whole {
         unused(domain, &mut found);
+        agents::check(domain, &mut found);
     }
     found
 }
@@ -79,6 +81,7 @@ pub fn problem(domain: &Domain, problem: &Problem) -> Diagnostics {
             stuck = reach::check(domain, problem, &mut found);
         }
         task::check(domain, problem, &stuck, &mut found);
+        agents::problem(domain, problem, &mut found);
     }
     found
 }

@@ -46,7 +46,7 @@ mod tests {
   (:requirements :typing :multi-agent :concurrency-network)
   (:types driver crane truck)
   (:predicates (at ?d - driver) (loaded ?t - truck) (open ?t - truck))
-  (:action open
+  (:action unlatch
     :agent ?d - driver
     :parameters (?t - truck)
     :precondition (at ?d)
@@ -55,7 +55,7 @@ mod tests {
     :agent ?c - crane
     :parameters (?t - truck)
     :effect (and (loaded ?t) (not (open ?t))))
-  (:concurrency-constraint opening :parameters (?t - truck) :bounds (1 1) :actions ((open 1)))
+  (:concurrency-constraint opening :parameters (?t - truck) :bounds (1 1) :actions ((unlatch 1)))
   (:concurrency-constraint loading :parameters (?t - truck) :bounds (1 1) :actions ((load 1)))
   (:positive-dependence opening loading))
 "]);
