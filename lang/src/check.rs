@@ -169,6 +169,8 @@ struct Names<'a> {
     actions: Index<'a>,
     /// The tasks, likewise.
     tasks: Index<'a>,
+    /// The actions that conditions or constraints name, likewise.
+    asked: BTreeSet<u32>,
 }
 
 impl World<'_, '_> {
@@ -207,7 +209,7 @@ fn describe_types(table: &[model::Type], types: &[TypeId]) -> String {
 }
 
 /// Parameters as they are declared: `?a - block ?b`.
-fn describe_parameters(table: &[model::Type], parameters: &[Variable]) -> String {
+pub(crate) fn describe_parameters(table: &[model::Type], parameters: &[Variable]) -> String {
     let shown = parameters.iter().map(|parameter| {
         if parameter.types.is_empty() || parameter.types == [OBJECT] {
             return parameter.name.text.clone();

@@ -92,6 +92,11 @@ pub mod parts_disagree;
 pub mod agent_list_mismatch;
 pub mod unknown_constraint;
 pub mod constraint_position;
+pub mod conflicting_effects;
+pub mod shared_fact;
+pub mod impossible_action_atom;
+pub mod ambiguous_action;
+pub mod idle_action_atom;
 pub mod subtask_arity;
 pub mod unknown_task;
 pub mod unknown_subtask;
@@ -202,6 +207,11 @@ pub const RULES: &[Rule] = &[
     agent_list_mismatch::RULE,
     unknown_constraint::RULE,
     constraint_position::RULE,
+    conflicting_effects::RULE,
+    shared_fact::RULE,
+    impossible_action_atom::RULE,
+    ambiguous_action::RULE,
+    idle_action_atom::RULE,
     subtask_arity::RULE,
     unknown_task::RULE,
     unknown_subtask::RULE,

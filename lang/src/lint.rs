@@ -13,6 +13,7 @@ mod requirement;
 mod action;
 mod initial;
 mod factor;
+mod agents;
 
 use hashbrown::HashMap;
 
@@ -39,6 +40,7 @@ pub fn domain(domain: &Domain) -> Diagnostics {
             named(&axiom.scope, &owner, |named| named.formula(&axiom.body), &mut found);
         }
     }
+    let guarded = effect::guarded(domain);
     for action in &domain.actions {
         let place = place(&action.scope);
         condition::check(&action.precondition, place, &mut found);
@@ -51,13 +53,14 @@ pub fn domain(domain: &Domain) -> Diagnostics {
             let owner = format!("action `{}`", action.name.text);
             named(&action.scope, &owner, |named| named.action(action), &mut found);
             if !contradictory {
-                effect::check(action, &mut found);
+                effect::check(action, &guarded, &mut found);
             }
         }
     }
     // What is not resolved may use any predicate.
     if whole {
         unused(domain, &mut found);
+        agents::check(domain, &mut found);
     }
     found
 }
@@ -78,6 +81,7 @@ pub fn problem(domain: &Domain, problem: &Problem) -> Diagnostics {
             stuck = reach::check(domain, problem, &mut found);
         }
         task::check(domain, problem, &stuck, &mut found);
+        agents::problem(domain, problem, &mut found);
     }
     found
 }

@@ -6,7 +6,9 @@ use super::scope::Bindings;
 use super::{Names, Report, World, agents, condition, domain, effect, name, temporal};
 use crate::ast::{self, ActionKind, Agent, DomainSection, Feature, Group, Name, TypedList};
 use crate::diagnostic::unused_parameter;
-use crate::model::{Action, ActionId, Doing, Domain, Formula, Signature, TypeId, Variable};
+use crate::model::{
+    Action, ActionId, Atom, Doing, Domain, Formula, NodeKind, Signature, TypeId, Variable,
+};
 use crate::symbol::{Namespace, Symbol};
 
 /// Takes down the names and parameters of all actions and tasks, so that each may be named before it is defined.
@@ -62,6 +64,9 @@ pub(super) fn signatures<'a>(
         report.declared_here(spelling, namespace);
         let (name, agent) = (name(spelling), agent.is_some());
         domain.signatures.push(Signature { name, doing, parameters, agent, action });
+    }
+    if domain.signatures.iter().any(|signature| signature.agent) {
+        names.asked = agents::named(ast, names);
     }
 }
 
@@ -153,12 +158,33 @@ pub(super) fn action<'a>(
     for formula in &action.preconditions {
         conditions.push(condition::check(formula, 0, setting, &mut bindings, world, report));
     }
+    if bindings.acting.is_some() {
+        bindings.demanded = conditions.iter().flat_map(conjoined).collect();
+    }
     let (effects, increases) =
         effect::check(&action.effects, action.kind, span, &mut bindings, world, report);
-    unused(&bindings, report);
+    // What others ask of an action, they ask with its arguments.
+    let asked = world.names.actions.find(action.name.text);
+    if asked.is_none_or(|id| !world.names.asked.contains(&id)) {
+        unused(&bindings, report);
+    }
     let precondition = condition::conjoin(conditions, span);
     let (name, scope) = (name(action.name), bindings.scope);
     instant.then_some(Action { name, scope, agent, precondition, effects, increases, span })
+}
+
+/// The atoms that a condition names outside of negations.
+fn conjoined(formula: &Formula) -> Vec<Atom> {
+    let denied = |at: usize| {
+        let above = formula.nodes.get(at + 1).map(|node| &node.kind);
+        matches!(above, Some(NodeKind::Not(child)) if child.index() == at)
+    };
+    let positive = formula.nodes.iter().enumerate().filter(|&(at, _)| !denied(at));
+    let atoms = positive.filter_map(|(_, node)| match &node.kind {
+        NodeKind::Atom(atom) => Some(atom.clone()),
+        _ => None,
+    });
+    atoms.collect()
 }
 
 /// Warns of parameters that nothing uses.

@@ -1,12 +1,16 @@
 //! What MA-PDDL adds: agents, action atoms, private predicates and concurrency constraints.
 
+use std::collections::BTreeSet;
+
 use hashbrown::HashMap;
 
 use super::concurrency::Constraint;
 use super::requirement::Need;
 use super::scope::{Bindings, Callee};
 use super::{Report, World, domain, hierarchy, name};
-use crate::ast::{Agent, Concurrency, Feature, Group, Name, Participant, Predicates, TypedList};
+use crate::ast::{
+    Agent, Concurrency, DomainSection, Feature, Group, Name, Participant, Predicates, TypedList,
+};
 use crate::diagnostic::{
     agent_without_multi_agent, constraint_position, private_access, unexpected_item,
     unknown_action, unknown_constraint, unknown_object, unknown_type,
@@ -116,6 +120,29 @@ pub(super) fn sums(
     let parameters = &world.domain.functions[function.index()].parameters;
     terms == [Term::Variable(*variable)]
         && parameters.iter().all(|parameter| world.fits(&parameter.types, false, types))
+}
+
+/// The actions that conditions or constraints name, by their position among the signatures.
+pub(super) fn named(ast: &crate::ast::Domain<'_>, names: &super::Names<'_>) -> BTreeSet<u32> {
+    let mut named = BTreeSet::new();
+    for section in &ast.sections {
+        match section {
+            DomainSection::Action(action) => {
+                let formulas = action.preconditions.iter().chain(&action.effects);
+                for node in formulas.flat_map(|formula| &formula.nodes) {
+                    if let crate::ast::NodeKind::Apply(application) = &node.kind {
+                        named.extend(names.actions.find(application.name.text));
+                    }
+                }
+            }
+            DomainSection::Concurrency(constraint) => {
+                let actions = constraint.actions.iter().map(|participant| participant.action);
+                named.extend(actions.filter_map(|action| names.actions.find(action.text)));
+            }
+            _ => {}
+        }
+    }
+    named
 }
 
 /// Whether a name in a condition means an action: it is one and no predicate, or no predicate with as many arguments.

@@ -516,6 +516,9 @@ impl<'a> Effects<'_, '_, '_, 'a> {
         for literal in literals {
             match seen.get(&literal.atom) {
                 Some(first) if first.positive != literal.positive => {
+                    if self.holds(&literal.atom) {
+                        continue;
+                    }
                     let atom = self.describe(&literal.atom);
                     let owner = self.bindings.owner.clone();
                     self.report.push(contradictory_effect::contradictory_effect(
@@ -531,6 +534,13 @@ impl<'a> Effects<'_, '_, '_, 'a> {
                 }
             }
         }
+    }
+
+    /// Whether an action takes what it demands and gives it back, and so keeps other agents from it for as long as it lasts:
+    /// no other part of a joint action may add or delete the same.
+    fn holds(&self, atom: &Atom) -> bool {
+        let own = Term::Variable(VariableId(0));
+        self.bindings.demanded.contains(atom) && !atom.arguments.contains(&own)
     }
 
     fn describe(&self, atom: &Atom) -> String {

@@ -35,6 +35,8 @@ pub(super) struct Bindings<'a> {
     pub(super) continuous: bool,
     /// Who acts, in MA-PDDL.
     pub(super) acting: Option<Acting>,
+    /// The atoms that an action of an agent demands.
+    pub(super) demanded: Vec<Atom>,
     /// Whether there is a joint action here that action atoms can ask about.
     pub(super) joint: bool,
 }
@@ -55,6 +57,7 @@ impl<'a> Bindings<'a> {
             durative: false,
             continuous: false,
             acting: None,
+            demanded: Vec::new(),
             joint: false,
         }
     }

@@ -50,4 +50,19 @@ mod tests {
     :effect (and (clean ?d) (when (lit) (not (clean ?d))))))
 "]);
     }
+
+    #[test]
+    fn an_agent_holds_what_it_gives_back() {
+        check(&["(define (domain d)
+  (:requirements :typing :multi-agent)
+  (:types rover channel)
+  (:predicates (free ?c - channel) (ready ?r - rover) (told ?r - rover))
+  (:action tell
+    :agent ?r - rover
+    :parameters (?c - channel)
+    :precondition (and (free ?c) (ready ?r))
+    :effect (and (not (free ?c)) (not (ready ?r)) (told ?r) (free ?c) (ready ?r))))
+;                                                                     ^^^^^^^^^^ W0401: action `tell` both adds and deletes `(ready ?r)`
+"]);
+    }
 }

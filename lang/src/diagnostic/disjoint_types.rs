@@ -39,4 +39,25 @@ mod tests {
     :effect (done)))
 "]);
     }
+
+    #[test]
+    fn what_a_constraint_says_of_agents_is_not_written() {
+        lint(&["(define (domain d)
+  (:requirements :typing :multi-agent :concurrency-network)
+  (:types driver crane truck)
+  (:predicates (at ?d - driver) (loaded ?t - truck) (open ?t - truck))
+  (:action unlatch
+    :agent ?d - driver
+    :parameters (?t - truck)
+    :precondition (at ?d)
+    :effect (open ?t))
+  (:action load
+    :agent ?c - crane
+    :parameters (?t - truck)
+    :effect (and (loaded ?t) (not (open ?t))))
+  (:concurrency-constraint opening :parameters (?t - truck) :bounds (1 1) :actions ((unlatch 1)))
+  (:concurrency-constraint loading :parameters (?t - truck) :bounds (1 1) :actions ((load 1)))
+  (:positive-dependence opening loading))
+"]);
+    }
 }

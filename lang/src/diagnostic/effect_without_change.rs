@@ -43,4 +43,24 @@ mod tests {
       (not (new ?y)))))
 "]);
     }
+
+    #[test]
+    fn what_is_added_keeps_others_from_deleting_it() {
+        lint(&["(define (domain d)
+  (:requirements :adl :multi-agent)
+  (:types arm cup)
+  (:predicates (full ?c - cup) (hot ?c - cup) (held ?a - arm ?c - cup))
+  (:action hold
+    :agent ?a - arm
+    :parameters (?c - cup)
+    :precondition (and (full ?c) (hot ?c))
+    :effect (and (held ?a ?c) (full ?c) (hot ?c)))
+;                                       ^^^^^^^^ W0404: this effect changes nothing
+  (:action empty
+    :agent ?a - arm
+    :parameters (?c - cup)
+    :precondition (held ?a ?c)
+    :effect (not (full ?c))))
+"]);
+    }
 }

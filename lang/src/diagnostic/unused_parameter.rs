@@ -57,4 +57,44 @@ mod tests {
     :effect (lit)))
 "]);
     }
+
+    #[test]
+    fn what_others_ask_with_is_used() {
+        check(&["(define (domain d)
+  (:requirements :adl :multi-agent)
+  (:types arm table box)
+  (:predicates (up ?t - table) (tired ?a - arm))
+  (:action hold
+    :agent ?a - arm
+    :parameters (?t - table)
+    :effect (tired ?a))
+  (:action wait
+    :agent ?a - arm
+    :parameters (?t - table)
+;                ^^ W0101: parameter `?t` of action `wait` is never used
+    :effect (not (tired ?a)))
+  (:action lift
+    :agent ?a - arm
+    :parameters (?t - table)
+    :precondition (exists (?b - arm) (and (not (= ?a ?b)) (hold ?b ?t)))
+    :effect (up ?t)))
+"]);
+    }
+
+    #[test]
+    fn what_a_constraint_counts_is_used() {
+        check(&["(define (domain d)
+  (:requirements :typing :multi-agent :concurrency-network)
+  (:types arm table)
+  (:predicates (done ?a - arm))
+  (:action polish
+    :agent ?a - arm
+    :parameters (?t - table)
+    :effect (done ?a))
+  (:concurrency-constraint one
+    :parameters (?t - table)
+    :bounds (1 1)
+    :actions ((polish 1))))
+"]);
+    }
 }

@@ -108,6 +108,14 @@ fn disjoint(
     apart: &mut HashMap<(TypeId, TypeId), bool>,
     found: &mut Diagnostics,
 ) {
+    // What a concurrency constraint demands stands nowhere in the text, nor do its variables.
+    let unwritten = |term| match term {
+        Term::Variable(id) => place.scope.variables[VariableId::index(id)].name.span == node.span,
+        Term::Object(_) => false,
+    };
+    if unwritten(left) || unwritten(right) {
+        return;
+    }
     let (lefts, rights) = (place.types(left), place.types(right));
     let types = &place.domain.types;
     let mut overlap = |one: TypeId, other: TypeId| {

@@ -1,19 +1,23 @@
 //! The effects of an action go in; warnings come out about those that change nothing, stand there twice or are decided beforehand.
 
-use hashbrown::HashMap;
+use hashbrown::{HashMap, HashSet};
 
 use super::condition::{self, Literal};
 use crate::diagnostic::{
     Diagnostics, decided_condition, effect_without_change, overridden_effect, repeated_effect,
 };
-use crate::model::{self, Action, Atom, Effect};
+use crate::model::{self, Action, Atom, Domain, Effect, PredicateId};
 use crate::source::Span;
 
 /// What is known to hold where an effect happens, and where it is demanded.
 type Known<'m> = HashMap<&'m Atom, (bool, Span)>;
 
 /// What there is to say about the effects.
-pub(super) fn check(action: &Action, found: &mut Diagnostics) {
+pub(super) fn check(
+    action: &Action,
+    guarded: &HashSet<(PredicateId, bool)>,
+    found: &mut Diagnostics,
+) {
     let demanded: Known<'_> = known(&condition::conjuncts(&action.precondition).0);
     let always = always(action);
     let changed = changed(action);
@@ -30,10 +34,13 @@ pub(super) fn check(action: &Action, found: &mut Diagnostics) {
         for literal in &effect.literals {
             let before = demanded.get(&literal.atom).or_else(|| inner.get(&literal.atom));
             // Where something else may have become of it, writing it out keeps it as it is.
-            let kept = changed.contains_key(&(literal.atom.predicate, !literal.positive));
+            let kept = changed.contains(&(literal.atom.predicate, !literal.positive));
+            // Another agent cannot delete in the same step what is added, nor add what is deleted.
+            let guards = guarded.contains(&(literal.atom.predicate, !literal.positive));
             if let Some(&(positive, span)) = before
                 && positive == literal.positive
                 && !kept
+                && !guards
             {
                 found.push(effect_without_change::effect_without_change(
                     positive,
@@ -43,6 +50,11 @@ pub(super) fn check(action: &Action, found: &mut Diagnostics) {
             }
         }
     }
+}
+
+/// The predicates that actions of agents add, and those that they delete: what one agent does, it may do beside another.
+pub(super) fn guarded(domain: &Domain) -> HashSet<(PredicateId, bool)> {
+    domain.actions.iter().filter(|action| action.agent).flat_map(changed).collect()
 }
 
 fn known<'m>(literals: &[Literal<'m>]) -> Known<'m> {
@@ -68,9 +80,9 @@ fn always(action: &Action) -> HashMap<&Atom, &model::Literal> {
 }
 
 /// The predicates that are added, and those that are deleted.
-fn changed(action: &Action) -> HashMap<(model::PredicateId, bool), ()> {
+fn changed(action: &Action) -> HashSet<(PredicateId, bool)> {
     let literals = action.effects.iter().flat_map(|effect| &effect.literals);
-    literals.map(|literal| ((literal.atom.predicate, literal.positive), ())).collect()
+    literals.map(|literal| (literal.atom.predicate, literal.positive)).collect()
 }
 
 /// Warns of literals that a group contains twice.
