@@ -29,6 +29,20 @@ fn every_domain_and_problem_checks_without_a_word() {
     }
 }
 
+#[test]
+fn domains_for_several_agents_and_their_problems_check_without_a_word_and_are_formatted() {
+    for name in domains::MULTI_AGENT {
+        let entries = fs::read_dir(domains::folder().join(name)).expect("it has its folder");
+        let files = entries.map(|entry| entry.expect("the folder stays as it is").path());
+        for file in files.filter(|file| file.extension() == Some("pddl".as_ref())) {
+            let (exit, said) = caveat("check", &[], &[&file]);
+            assert_eq!((exit, said.as_str()), (Exit::Done, "Nothing wrong in 1 file.\n"), "{name}");
+            let text = fs::read_to_string(&file).expect("it was just read");
+            assert_eq!(lang::format::format(&text).as_deref(), Some(&*text), "{}", file.display());
+        }
+    }
+}
+
 /// Reads a file into `sources`.
 fn add(sources: &mut Sources, path: &Path) -> SourceId {
     let text =

@@ -1,8 +1,10 @@
 //! The one test binary: every module is a family of end-to-end tests.
 
 mod bad;
+mod brute;
 mod costs;
 mod domains;
+mod joint;
 mod listings;
 mod replay;
 mod tidy;

@@ -15,7 +15,10 @@ use std::path::PathBuf;
 pub const NAMES: [&str; 8] =
     ["stacking", "hanoi", "keys", "delivery", "kitchen", "drawers", "circuits", "museum"];
 
-/// The folder that holds one folder for each of [`NAMES`], on the machine where this crate was built.
+/// The names of the domains for several agents, in the order in which they are best read; they lie beside the others.
+pub const MULTI_AGENT: [&str; 5] = ["bottle", "moves", "table", "hanoi-arms", "warehouse"];
+
+/// The folder that holds one folder for each of [`NAMES`] and [`MULTI_AGENT`], on the machine where this crate was built.
 pub fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
