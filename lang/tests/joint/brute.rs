@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::ground;
 use super::naive::{Facts, Joint, World};
-use super::random::{Tape, Texts};
+use super::random::Texts;
+use super::tape::Tape;
 
 /// What a plan is to have little of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

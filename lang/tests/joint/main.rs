@@ -6,6 +6,7 @@ mod ground;
 mod meaning;
 mod naive;
 mod random;
+mod tape;
 mod text;
 
 use std::collections::BTreeSet;
@@ -19,8 +20,9 @@ use lang::source::Sources;
 use lang::validate::joint::{Verdict, judge};
 use naive::{Facts, Joint, Tally, World};
 use proptest::prelude::*;
-use random::{Tape, Texts};
+use random::Texts;
 use rust_decimal::Decimal;
+use tape::Tape;
 
 fn tape() -> impl Strategy<Value = Tape> {
     proptest::collection::vec(any::<u8>(), 100..500).prop_map(Tape::new)

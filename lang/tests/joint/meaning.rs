@@ -145,3 +145,25 @@ fn each_agent_does_one_thing_and_nobody_is_one_more() {
     assert!(!liberal(&both, &["(rain)", "(snow)"]));
     assert!(!liberal(&both, &[]));
 }
+
+#[test]
+fn a_cost_may_depend_on_who_acts_and_counts_the_own_action() {
+    let domain = "(define (domain d) (:requirements :adl :multi-agent :action-costs) (:types arm)
+        (:predicates (p)) (:functions (total-cost) - number)
+        (:action lift :agent ?a - arm :effect (and (p)
+          (when (exists (?b - arm) (lift ?b)) (increase (total-cost) 1))
+          (when (exists (?b - arm) (and (not (= ?a ?b)) (lift ?b))) (increase (total-cost) 10)))))"
+        .to_owned();
+    let problem =
+        "(define (problem p) (:domain d) (:objects a1 a2 - arm) (:init (= (total-cost) 0))
+        (:goal (p)) (:metric minimize (total-cost)))"
+            .to_owned();
+    let both = Both::read(Texts { domain, problem });
+    for (lines, cost) in [(&["(lift a1)"][..], 1), (&["(lift a1)", "(lift a2)"], 22)] {
+        let parts: Vec<_> = lines.iter().map(|line| both.parse(line)).collect();
+        let lines: Vec<String> = lines.iter().map(|line| (*line).to_owned()).collect();
+        let executor = both.executor();
+        assert_eq!(executor.joint_cost(&executor.initial(), &parts), Ok(cost.into()));
+        assert_eq!(both.world.cost(&both.world.initial, &joint(&lines)), cost);
+    }
+}

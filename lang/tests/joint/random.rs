@@ -5,14 +5,9 @@
 //! A shorter tape and smaller bytes make simpler texts. Every text is free of errors.
 
 use std::collections::BTreeSet;
-use std::fmt::{self, Write};
+use std::fmt::Write;
 
-/// Decides, byte by byte.
-#[derive(Clone)]
-pub struct Tape {
-    bytes: Vec<u8>,
-    at: usize,
-}
+use super::tape::Tape;
 
 /// What was written.
 #[derive(Debug, Clone)]
@@ -56,6 +51,7 @@ enum Form {
     None,
 }
 
+#[expect(clippy::struct_excessive_bools, reason = "each is a feature that a domain has or has not")]
 struct Writer<'t> {
     tape: &'t mut Tape,
     typing: bool,
@@ -68,8 +64,9 @@ struct Writer<'t> {
     derived: Vec<Symbol>,
     actions: Vec<(Symbol, Form)>,
     costs: bool,
-    /// Privacy, and so no atoms of actions.
     private: bool,
+    /// Whether conditions ask who acts; it is the rule, but seldom where there is privacy.
+    asks: bool,
     /// How many variables quantifiers have bound.
     bound: usize,
 }
@@ -88,30 +85,6 @@ enum New {
 enum Place {
     Action,
     Elsewhere,
-}
-
-/// On one line, however it is asked for.
-impl fmt::Debug for Tape {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{:?}", self.bytes)
-    }
-}
-
-impl Tape {
-    pub fn new(bytes: Vec<u8>) -> Self {
-        Self { bytes, at: 0 }
-    }
-
-    /// A number below `limit`; 0 behind the end.
-    pub fn below(&mut self, limit: usize) -> usize {
-        self.at += 1;
-        self.bytes.get(self.at - 1).map_or(0, |&byte| byte as usize % limit)
-    }
-
-    /// True once in `times`.
-    fn once_in(&mut self, times: usize) -> bool {
-        self.below(times) == times - 1
-    }
 }
 
 impl Kind {
@@ -196,6 +169,7 @@ impl<'t> Writer<'t> {
         let constants = tape.below(3).min(2);
         let costs = tape.once_in(3);
         let private = tape.once_in(8);
+        let asks = !private || tape.once_in(3);
         let mut writer = Self {
             tape,
             typing,
@@ -207,6 +181,7 @@ impl<'t> Writer<'t> {
             actions: Vec::new(),
             costs,
             private,
+            asks,
             bound: 0,
         };
         writer.base = (0..2 + writer.tape.below(3)).map(|at| writer.predicate("p", at)).collect();
@@ -301,7 +276,7 @@ impl<'t> Writer<'t> {
 
     /// A fact, or its negation; what is new is quantified.
     fn literal(&mut self, scope: &[Term], place: Place) -> String {
-        if place == Place::Action && !self.private && self.tape.once_in(3) {
+        if place == Place::Action && self.asks && self.tape.once_in(3) {
             return self.acting(scope);
         }
         let symbol = self.readable();
@@ -487,7 +462,7 @@ impl<'t> Writer<'t> {
                 }
             }
         }
-        if !self.private && self.tape.below(5) > 2 {
+        if self.asks && self.tape.below(5) > 2 {
             conditions.push(self.acting(&scope));
         }
         for _ in 0..[0, 1, 0, 2][self.tape.below(4)] {
@@ -514,7 +489,7 @@ impl<'t> Writer<'t> {
         let mut effect = if self.tape.once_in(3) { format!("(not {atom})") } else { atom };
         if self.tape.once_in(3) {
             let inner = [new.as_slice(), scope].concat();
-            let acting = !self.private && self.tape.once_in(2);
+            let acting = self.asks && self.tape.once_in(2);
             let condition =
                 if acting { self.acting(&inner) } else { self.formula(&inner, 1, Place::Action) };
             effect = format!("(when {condition} {effect})");
