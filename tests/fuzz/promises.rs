@@ -205,7 +205,7 @@ fn plan(text: &str) {
     let mut sources = Sources::default();
     let [domain, problem] = RUN;
     let domain = sources.add("domain.pddl", domain);
-    let problem = sources.add("problem.pddl", text);
+    let problem = sources.add("problem.pddl", problem);
     let (domain, _) = lang::read_domain(&sources, domain);
     let (problem, _) = lang::read_problem(&sources, problem, &domain);
     let id = sources.add("plan", text);

@@ -89,7 +89,6 @@ impl Sketch {
                 .map(|name| Variable {
                     name: (*name).to_owned(),
                     types: vec![TypeId(0)],
-                    holder: None,
                 })
                 .collect(),
             parameters,
