@@ -2,6 +2,7 @@
 
 mod bad;
 mod brute;
+mod compiled;
 mod costs;
 mod domains;
 mod joint;

@@ -114,12 +114,12 @@ type Found = Result<(Option<JointPlan>, End), Failure>;
 impl Planning<'_> {
     /// What is to be minimised.
     pub(super) fn objective(&self) -> Objective {
+        // Without a metric a joint step costs 1.
+        let metric = self.input.problem.metric.is_some();
         match self.arguments.objective {
-            Some(ObjectiveName::Steps) => Objective::Steps,
             Some(ObjectiveName::Actions) => Objective::Actions,
-            Some(ObjectiveName::Cost) => Objective::Cost,
-            None if self.input.problem.metric.is_some() => Objective::Cost,
-            None => Objective::Steps,
+            Some(ObjectiveName::Cost) | None if metric => Objective::Cost,
+            _ => Objective::Steps,
         }
     }
 
