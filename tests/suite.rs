@@ -7,5 +7,6 @@ mod costs;
 mod domains;
 mod joint;
 mod listings;
+mod multiagent_page;
 mod replay;
 mod tidy;
