@@ -17,7 +17,7 @@ use crate::diagnostic::{
 };
 use crate::model::{
     ActionAtom, Formula, FunctionId, Holder, Node, NodeKind, Object, ObjectId, Owner, PredicateId,
-    Term, TypeId, Variable, VariableId,
+    Signature, Term, TypeId, Variable, VariableId,
 };
 use crate::near::nearest;
 use crate::source::Span;
@@ -154,6 +154,37 @@ pub(super) fn is_action_atom(name: Name<'_>, arguments: usize, world: &World<'_,
     let predicate = predicate.map(|id| world.domain.predicates[id as usize].parameters.len());
     agents
         && predicate.is_none_or(|arity| arity != arguments && action.parameters.len() == arguments)
+}
+
+/// The action that a name which is neither an action's nor a predicate's was probably meant to be,
+/// unless a predicate is as near and takes as many arguments.
+pub(super) fn misspelt<'w>(
+    name: Name<'_>,
+    arguments: usize,
+    world: &World<'w, '_>,
+    report: &mut Report<'_>,
+) -> Option<&'w Signature> {
+    let names = world.names;
+    let known = [&names.predicates, &names.functions, &names.actions];
+    if known.iter().any(|table| table.find(name.text).is_some())
+        || !world.domain.signatures.iter().any(|signature| signature.agent)
+    {
+        return None;
+    }
+    let action = report.nearest(name.text, &names.actions)?;
+    let predicate = report.nearest(name.text, &names.predicates);
+    let action = &world.domain.signatures[names.actions.find(action)? as usize];
+    let Some(predicate) = predicate else { return Some(action) };
+    let id = names.predicates.find(predicate)?;
+    let arities = [&action.parameters, &world.domain.predicates[id as usize].parameters];
+    let [action_fits, predicate_fits] = arities.map(|parameters| parameters.len() == arguments);
+    let nearer = nearest(name.text, [predicate, &action.name.text]);
+    let is_action = match (action_fits, predicate_fits) {
+        (true, false) => true,
+        (false, true) => false,
+        _ => nearer != Some(predicate),
+    };
+    is_action.then_some(action)
 }
 
 /// `(ACTION AGENT TERM …)` in a condition: the action stands in the joint action.

@@ -252,6 +252,20 @@ impl<'a> Bindings<'a> {
         world: &World<'_, 'a>,
         report: &mut Report<'_>,
     ) -> Option<Atom> {
+        let misspelt = if self.joint {
+            agents::misspelt(spelling, arguments.len(), world, report)
+        } else {
+            None
+        };
+        if let Some(action) = misspelt {
+            self.look_at(arguments, world, report);
+            report.lost(spelling, Namespace::Action);
+            if report.first(&unknown_predicate::RULE, spelling.text) {
+                let (text, span) = (spelling.text, spelling.span);
+                report.push(unknown_predicate::nor_action(text, span, &action.name.text));
+            }
+            return None;
+        }
         let Some(predicate) = predicate(spelling, world, report) else {
             self.look_at(arguments, world, report);
             return None;

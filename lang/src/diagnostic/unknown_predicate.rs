@@ -21,6 +21,12 @@ pub fn unknown_predicate(name: &str, span: Span, near: Option<&str>) -> Diagnost
     }
 }
 
+/// No predicate and no action `name` is declared; the action `near` was probably meant.
+pub fn nor_action(name: &str, span: Span, near: &str) -> Diagnostic {
+    let message = format!("unknown action or predicate `{name}`");
+    RULE.at(span, message, "neither an action nor a predicate").suggest(Some(near))
+}
+
 /// `name` is an action, declared at `declared`, in a domain without agents.
 pub fn an_action(name: &str, span: Span, declared: Span) -> Diagnostic {
     RULE.at(
@@ -64,6 +70,26 @@ mod tests {
     :precondition (nto (clean ?d))
 ;                  ^^^ E0101: unknown predicate `nto`
     :effect (clean ?d)))
+"]);
+    }
+
+    #[test]
+    fn a_misspelt_action_where_agents_act() {
+        check(&["(define (domain d)
+  (:requirements :adl :multi-agent)
+  (:types arm box place)
+  (:predicates (pushed ?b - box) (at ?b - box ?p - place) (pull ?b - box))
+  (:action push
+    :agent ?a - arm
+    :parameters (?b - box ?p - place)
+    :precondition (and (at ?b ?p)
+      (exists (?c - arm) (psuh ?c ?b ?p))
+;                         ^^^^ E0101: unknown action or predicate `psuh`
+      (pushd ?b)
+;      ^^^^^ E0101: unknown predicate `pushd`
+      (exists (?c - arm) (pul ?b)))
+;                         ^^^ E0101: unknown predicate `pul`
+    :effect (pushed ?b)))
 "]);
     }
 }

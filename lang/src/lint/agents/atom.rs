@@ -52,7 +52,9 @@ fn walk<'c>(condition: &'c Condition, context: Context, found: &mut Vec<Found<'c
             inner.equal.extend(beside);
             inner.needed &= all;
             inner.alone &= all && inner.equal.len() - count + 1 >= parts.len();
-            parts.iter().for_each(|part| walk(part, inner.clone(), found));
+            for part in parts {
+                walk(part, inner.clone(), found);
+            }
         }
         Condition::Exists(variables, body) => {
             let mut inner = Context { alone: true, ..context };
@@ -95,7 +97,9 @@ fn judge(
         pair.unify(&one.atom.arguments, &target.parameters().collect::<Vec<_>>());
         let (same, unlike): (Vec<_>, Vec<_>) =
             one.context.equal.iter().partition(|(_, _, holds)| *holds);
-        same.into_iter().for_each(|&(left, right, _)| pair.equate(left, right));
+        for &(left, right, _) in same {
+            pair.equate(left, right);
+        }
         let is = |one: Term, other: Term| {
             pair.object(Side::First, one) == pair.object(Side::First, other)
         };

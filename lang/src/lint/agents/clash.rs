@@ -1,7 +1,7 @@
 //! The actions of agents go in; warnings come out about pairs of which one undoes what the other does,
 //! and about pairs that both use up one fact and each make something else of it.
 
-use super::invariant::{Invariant, Trust};
+use super::invariant::{About, Invariant, Trust};
 use super::part::{Change, Part};
 use super::together::{Proof, Side, Together};
 use crate::check::describe_parameters;
@@ -130,7 +130,7 @@ impl<'p, 'm> Pair<'p, 'm> {
                     let tied = |&term: &Term| {
                         together.is_tied(together.object(Side::First, term), self.fixed)
                     };
-                    if self.undo(&together, changes) || taken.atom.arguments.iter().any(tied) {
+                    if undo(&together, changes) || taken.atom.arguments.iter().any(tied) {
                         continue;
                     }
                     if let Some(made) = self.made(&together, changes, taken) {
@@ -151,20 +151,6 @@ impl<'p, 'm> Pair<'p, 'm> {
         None
     }
 
-    /// Whether one adds what the other deletes.
-    fn undo(&self, together: &Together<'_, '_>, changes: [&Change<'m>; 2]) -> bool {
-        let sides = [(Side::First, Side::Second), (Side::Second, Side::First)];
-        sides.into_iter().any(|(adds, deletes)| {
-            let of = |side: Side| together.part(side).along(changes[side as usize]);
-            of(adds).filter(|literal| literal.positive).any(|add| {
-                of(deletes).any(|delete| {
-                    !delete.positive
-                        && together.same_fact((adds, &add.atom), (deletes, &delete.atom))
-                })
-            })
-        })
-    }
-
     /// Two different facts that come of `taken`: no action alone makes both of it.
     fn made(
         &self,
@@ -172,10 +158,10 @@ impl<'p, 'm> Pair<'p, 'm> {
         changes: [&Change<'m>; 2],
         taken: &Literal,
     ) -> Option<[&'m Literal; 2]> {
-        let object = |side, key: Option<Term>| key.map(|term| together.object(side, term));
+        let object = |side, about: About| about.object().map(|term| together.object(side, term));
         let sure = self.invariants.iter().filter(|one| one.trust == Trust::Demanded);
         sure.into_iter().find_map(|invariant| {
-            let about = object(Side::First, invariant.key(&taken.atom)?);
+            let about = object(Side::First, invariant.about(&taken.atom)?);
             // Of the whole state there is much that two may take at once; what stands alone they share.
             if about.is_none() && !taken.atom.arguments.is_empty() {
                 return None;
@@ -186,7 +172,8 @@ impl<'p, 'm> Pair<'p, 'm> {
                 part.along(change).find(|literal| {
                     literal.positive
                         && !together.holds(side, (side, &literal.atom))
-                        && invariant.key(&literal.atom).map(|key| object(side, key)) == Some(about)
+                        && invariant.about(&literal.atom).map(|about| object(side, about))
+                            == Some(about)
                 })
             };
             let (one, other) = (made(Side::First)?, made(Side::Second)?);
@@ -206,6 +193,19 @@ impl<'p, 'm> Pair<'p, 'm> {
         }
         text + ")"
     }
+}
+
+/// Whether one adds what the other deletes.
+fn undo<'m>(together: &Together<'_, 'm>, changes: [&Change<'m>; 2]) -> bool {
+    let sides = [(Side::First, Side::Second), (Side::Second, Side::First)];
+    sides.into_iter().any(|(adds, deletes)| {
+        let of = |side: Side| together.part(side).along(changes[side as usize]);
+        of(adds).filter(|literal| literal.positive).any(|add| {
+            of(deletes).any(|delete| {
+                !delete.positive && together.same_fact((adds, &add.atom), (deletes, &delete.atom))
+            })
+        })
+    })
 }
 
 /// The pairs of literals of two changes that are added, or else deleted.
@@ -246,16 +246,15 @@ fn forbid(domain: &Domain, together: &Together<'_, '_>) -> String {
     for (parameter, term) in declared.iter().zip(other.parameters()).skip(1) {
         let object = together.object(Side::Second, term);
         let own = own.parameters().find(|&own| together.object(Side::First, own) == object);
-        let name = match own {
-            Some(Term::Variable(id)) => names[id.index()].name.text.clone(),
-            _ => {
-                let name = format!("?other-{}", parameter.name.text.trim_start_matches('?'));
-                let variable = fresh(parameter, &name);
-                let name = variable.name.text.clone();
-                unlike.push(format!("(= {} {name})", parameter.name.text));
-                bound.push(variable);
-                name
-            }
+        let name = if let Some(Term::Variable(id)) = own {
+            names[id.index()].name.text.clone()
+        } else {
+            let name = format!("?other-{}", parameter.name.text.trim_start_matches('?'));
+            let variable = fresh(parameter, &name);
+            let name = variable.name.text.clone();
+            unlike.push(format!("(= {} {name})", parameter.name.text));
+            bound.push(variable);
+            name
         };
         text.push(' ');
         text.push_str(&name);

@@ -36,14 +36,31 @@ struct Member {
 
 impl Invariant {
     /// What the invariant is about where an atom is one of its facts.
-    pub(super) fn key(&self, atom: &Atom) -> Option<Option<Term>> {
-        key(&self.members, atom)
+    pub(super) fn about(&self, atom: &Atom) -> Option<About> {
+        about(&self.members, atom)
     }
 }
 
-fn key(members: &[Member], atom: &Atom) -> Option<Option<Term>> {
+/// What facts have in common of which an invariant counts how many there are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum About {
+    State,
+    Object(Term),
+}
+
+impl About {
+    /// The object, if it is one.
+    pub(super) fn object(self) -> Option<Term> {
+        match self {
+            Self::State => None,
+            Self::Object(term) => Some(term),
+        }
+    }
+}
+
+fn about(members: &[Member], atom: &Atom) -> Option<About> {
     let member = members.iter().find(|member| member.predicate == atom.predicate)?;
-    Some(member.key.map(|position| atom.arguments[position]))
+    Some(member.key.map_or(About::State, |position| About::Object(atom.arguments[position])))
 }
 
 /// What an action does to a candidate.
@@ -124,11 +141,11 @@ fn unite(found: &mut Vec<Invariant>, seen: &mut HashSet<Vec<Member>>, parts: &[P
 }
 
 fn judge(members: &[Member], part: &Part<'_>, trust: Trust) -> Verdict {
-    let mut adds: Vec<(Option<Term>, &Atom)> = Vec::new();
+    let mut adds: Vec<(About, &Atom)> = Vec::new();
     for change in &part.changes {
         for literal in change.literals.iter().filter(|literal| literal.positive) {
             let atom = &literal.atom;
-            let Some(key) = key(members, atom) else { continue };
+            let Some(key) = about(members, atom) else { continue };
             if part.demands(change, atom) {
                 continue;
             }
@@ -138,7 +155,7 @@ fn judge(members: &[Member], part: &Part<'_>, trust: Trust) -> Verdict {
             }
             adds.push((key, atom));
             let paid = consumed(part, change, trust);
-            if paid.iter().all(|atom| self::key(members, atom) != Some(key)) {
+            if paid.iter().all(|atom| about(members, atom) != Some(key)) {
                 return Verdict::Lacks(payments(members, &paid, key));
             }
         }
@@ -148,7 +165,7 @@ fn judge(members: &[Member], part: &Part<'_>, trust: Trust) -> Verdict {
 
 /// Whether a change may add several facts with one key: another argument is what it is done for each of,
 /// and no fact of the same members settles which one that is.
-fn spreads(members: &[Member], change: &Change<'_>, key: Option<Term>, atom: &Atom) -> bool {
+fn spreads(members: &[Member], change: &Change<'_>, key: About, atom: &Atom) -> bool {
     let bound = |term: &Term| match term {
         Term::Variable(id) => change.variables.contains(id),
         Term::Object(_) => false,
@@ -156,18 +173,18 @@ fn spreads(members: &[Member], change: &Change<'_>, key: Option<Term>, atom: &At
     let settled = |term: &Term| {
         change.condition.conjuncts().iter().any(|conjunct| match conjunct {
             crate::condition::Condition::Atom(other, true) => {
-                let fixed = self::key(members, other).flatten();
+                let fixed = about(members, other).and_then(About::object);
                 fixed.is_some_and(|fixed| fixed != *term && !bound(&fixed))
                     && other.arguments.contains(term)
             }
             _ => false,
         })
     };
-    atom.arguments.iter().any(|term| Some(*term) != key && bound(term) && !settled(term))
+    atom.arguments.iter().any(|term| About::Object(*term) != key && bound(term) && !settled(term))
 }
 
 /// What of all that a change consumes could be counted too, so that what it adds is paid for.
-fn payments(members: &[Member], consumed: &[&Atom], key: Option<Term>) -> Vec<Member> {
+fn payments(members: &[Member], consumed: &[&Atom], key: About) -> Vec<Member> {
     let mut found = Vec::new();
     for atom in consumed {
         let predicate = atom.predicate;
@@ -175,8 +192,8 @@ fn payments(members: &[Member], consumed: &[&Atom], key: Option<Term>) -> Vec<Me
             continue;
         }
         match key {
-            None => found.push(Member { predicate, key: None }),
-            Some(key) => {
+            About::State => found.push(Member { predicate, key: None }),
+            About::Object(key) => {
                 let places = atom.arguments.iter().enumerate().filter(|(_, term)| **term == key);
                 found.extend(places.map(|(place, _)| Member { predicate, key: Some(place) }));
             }

@@ -3,6 +3,9 @@
 use crate::condition::Condition;
 use crate::model::{Action, ActionId, Atom, Literal, Term, VariableId};
 
+/// Who takes a part.
+pub(super) const AGENT: Term = Term::Variable(VariableId(0));
+
 /// An action as a part of a joint action.
 pub(super) struct Part<'m> {
     pub(super) id: ActionId,
@@ -47,11 +50,6 @@ impl<'m> Part<'m> {
     /// The parameters, the agent first.
     pub(super) fn parameters(&self) -> impl Iterator<Item = Term> + use<> {
         (0..self.action.scope.parameters).map(|id| Term::Variable(VariableId(id)))
-    }
-
-    /// Who acts.
-    pub(super) fn agent(&self) -> Term {
-        Term::Variable(VariableId(0))
     }
 
     /// Whether a variable is one of a quantifier in a condition.

@@ -3,7 +3,7 @@
 //! Objects that need not be the same are taken as different ones, so that an answer is about the most general such pair.
 
 use super::invariant::Invariant;
-use super::part::Part;
+use super::part::{AGENT, Part};
 use crate::condition::Condition;
 use crate::model::{ActionAtom, Atom, Domain, ObjectId, Term, TypeId, VariableId};
 
@@ -125,7 +125,7 @@ impl<'p, 'm> Together<'p, 'm> {
 
     /// Whether one agent would have to take both.
     pub(super) fn one_agent(&self) -> bool {
-        let [first, second] = SIDES.map(|side| self.object(side, self.part(side).agent()));
+        let [first, second] = SIDES.map(|side| self.object(side, AGENT));
         first == second
     }
 
@@ -166,12 +166,11 @@ impl<'p, 'm> Together<'p, 'm> {
     pub(super) fn is_tied(&self, object: usize, fixed: &[bool]) -> bool {
         let demands = self.demands();
         SIDES.into_iter().all(|side| {
-            let agent = self.part(side).agent();
             demands.iter().any(|&(by, atom, holds)| {
                 by == side
                     && holds
                     && fixed[atom.predicate.index()]
-                    && atom.arguments.contains(&agent)
+                    && atom.arguments.contains(&AGENT)
                     && atom.arguments.iter().any(|&term| self.object(side, term) == object)
             })
         })
@@ -240,7 +239,7 @@ impl<'p, 'm> Together<'p, 'm> {
         for invariant in exclusive {
             let of = |&(side, atom, holds): &(Side, &'p Atom, bool)| {
                 // Of the whole state there may be many such facts from the start; of one object that is rare.
-                let key = invariant.key(atom).flatten().filter(|_| holds)?;
+                let key = invariant.about(atom)?.object().filter(|_| holds)?;
                 Some((self.object(side, key), (side, atom)))
             };
             let facts: Vec<_> = demands.iter().filter_map(of).collect();
@@ -350,7 +349,7 @@ impl<'p, 'm> Together<'p, 'm> {
                     known.is_some_and(|known| known != self.object(of, own))
                 })
             };
-            agent == Some(self.object(of, part.agent()))
+            agent == Some(self.object(of, AGENT))
                 && (atom.action != part.id || (self.proof == Proof::Likely && differs()))
         })
     }
