@@ -53,6 +53,8 @@ pub enum Verb {
     Plan(Plan),
     /// Check plans step by step.
     Validate(Validate),
+    /// Write a task of several agents in another form.
+    Compile(Compile),
     /// Write out the ground task.
     Ground(Ground),
     /// Measure this planner and a peer on the same tasks.
@@ -93,7 +95,7 @@ Examples:
 
 Exit codes: 0 nothing wrong, 1 something is wrong (warnings count), 2 a file could not be read.")]
 pub struct Check {
-    /// Domains and problems; `-` is the standard input.
+    /// Domains and problems, folders of them, and lists of agents (*.addl); `-` is the standard input.
     #[arg(required_unless_present = "support", value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Say what is supported of each requirement, and by which planners it is planned; as a table in Markdown.
@@ -184,8 +186,8 @@ pub enum JointFormat {
 #[command(override_usage = "caveat plan [OPTIONS] [DOMAIN] PROBLEM", arg_required_else_help = true, after_help = plan_help())]
 pub struct Plan {
     /// The problem, or the domain and the problem; `-` is the standard input. A domain that is left out is looked for beside
-    /// the problem.
-    #[arg(required_unless_present = "list", num_args = 1..=2, value_name = "FILE")]
+    /// the problem. Of a task in the factored form: the files of all agents, their folder, or their list (*.addl).
+    #[arg(required_unless_present = "list", value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Find a plan of least cost.
     #[arg(long, conflicts_with = "anytime")]
@@ -261,13 +263,58 @@ Examples:
 Exit codes: 0 all plans are valid, 1 one is not, 2 a file could not be read or is not PDDL."
 )]
 pub struct Validate {
-    /// The domain, unless it lies beside the problem, the problem, and plans; `-` is the standard input.
+    /// The domain, unless it lies beside the problem, the problem, and plans; `-` is the standard input. Of a task in the factored
+    /// form: the files of all agents, their folder, or their list (*.addl), and plans.
     #[arg(required = true, num_args = 2.., value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Several agents: whether a part of a joint step may destroy the precondition of another. By default only where action atoms
     /// say what excludes what.
     #[arg(long, value_name = "MODE")]
     pub concurrency: Option<ConcurrencyName>,
+    /// How diagnostics look.
+    #[arg(long, value_name = "FORMAT", default_value = "full")]
+    pub output_format: OutputFormat,
+}
+
+/// How a task of several agents is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Form {
+    /// As a task without agents, which any planner reads.
+    Classical,
+    /// As one domain and one problem that say what is private to whom.
+    Unfactored,
+    /// As one domain and one problem for each agent, and a list of the agents.
+    Factored,
+}
+
+/// `caveat compile`.
+#[derive(Debug, Args)]
+#[command(
+    override_usage = "caveat compile [OPTIONS] -o FOLDER [DOMAIN] PROBLEM",
+    after_help = "\
+Examples:
+  caveat compile -o classical domain.pddl problem.pddl
+      a domain and a problem for planners that know nothing of agents
+  caveat compile --to unfactored -o whole domain-a.pddl problem-a.pddl domain-b.pddl problem-b.pddl
+      the files of two agents as one domain and one problem
+  caveat compile --to factored -o parts problem.pddl
+      the files of each agent; the domain is found beside the problem
+
+The names of the files that were written go to the output.
+
+Exit codes: 0 done, 1 the task cannot be written in this form, 2 could not run."
+)]
+pub struct Compile {
+    /// The problem, or the domain and the problem; `-` is the standard input. Of a task in the factored form: the files of all
+    /// agents, their folder, or their list (*.addl).
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// The folder to write into; it is made if it is not there.
+    #[arg(short, long, value_name = "FOLDER")]
+    pub output: PathBuf,
+    /// How the task is written.
+    #[arg(long, value_name = "FORM", default_value = "classical")]
+    pub to: Form,
     /// How diagnostics look.
     #[arg(long, value_name = "FORMAT", default_value = "full")]
     pub output_format: OutputFormat,

@@ -11,11 +11,18 @@ pub fn run(arguments: &Check, terminal: &mut Terminal) -> Exit {
         terminal.data(lang::support::table());
         return Exit::Done;
     }
+    let mut reader = Reader::of(&arguments.tools);
+    let files = match reader.expand(&arguments.files) {
+        Ok(files) => files,
+        Err(complaint) => {
+            terminal.say(complaint);
+            return Exit::Failed;
+        }
+    };
     let checked = if arguments.fix {
-        Reader::fix(&arguments.files, &arguments.tools)
+        Reader::fix(&files, &arguments.tools)
     } else {
-        let mut reader = Reader::of(&arguments.tools);
-        reader.check(&arguments.files).map(|found| (reader, found, 0))
+        reader.check(&files).map(|found| (reader, found, 0))
     };
     match checked {
         Ok((reader, found, fixed)) => {
@@ -28,7 +35,7 @@ pub fn run(arguments: &Check, terminal: &mut Terminal) -> Exit {
             if arguments.fix {
                 terminal.say(format!("{fixed} fixed."));
             }
-            terminal.say(summary(&found, arguments.files.len()));
+            terminal.say(summary(&found, files.len()));
             if found.list.is_empty() { Exit::Done } else { Exit::Findings }
         }
         Err(complaint) => {

@@ -1,5 +1,7 @@
 //! Paths of a domain and a problem go in; both as checked models come out, or what is wrong with them is said.
 
+mod team;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -70,6 +72,28 @@ impl Reader {
     /// Everything that is wrong with the files in `paths`: domains alone, problems with the domain that is among the files
     /// or else lies beside them.
     pub fn check(&mut self, paths: &[PathBuf]) -> Result<Diagnostics, Complaint> {
+        let mut found = match self.team(paths)? {
+            Some(team) => self.join(&team)?.2,
+            None => self.each(paths)?,
+        };
+        for path in paths.iter().filter(|path| !team::is_list(path)) {
+            let id = self.take(path)?;
+            let wrong =
+                |one: &Diagnostic| one.severity == Severity::Error && one.primary.span.source == id;
+            // What a mistake makes of a file is no matter of who reads it.
+            if !found.list.iter().any(wrong) {
+                found.append(portability::check(&self.sources, id, &self.tools));
+            }
+        }
+        allow::apply(&mut found, &self.sources);
+        self.settle(&mut found);
+        // File by file and line by line, whichever step found it.
+        found.list.sort_by_key(|one| (one.primary.span.source, one.primary.span.start));
+        Ok(found)
+    }
+
+    /// What is wrong with files of which each stands for itself.
+    fn each(&mut self, paths: &[PathBuf]) -> Result<Diagnostics, Complaint> {
         let mut found = Diagnostics::default();
         let mut domains = Vec::new();
         for path in paths {
@@ -114,19 +138,6 @@ impl Reader {
             }
             lint::tell_factors(&mut found, domain, &problem);
         }
-        for path in paths {
-            let id = self.take(path)?;
-            let wrong =
-                |one: &Diagnostic| one.severity == Severity::Error && one.primary.span.source == id;
-            // What a mistake makes of a file is no matter of who reads it.
-            if !found.list.iter().any(wrong) {
-                found.append(portability::check(&self.sources, id, &self.tools));
-            }
-        }
-        allow::apply(&mut found, &self.sources);
-        self.settle(&mut found);
-        // File by file and line by line, whichever step found it.
-        found.list.sort_by_key(|one| (one.primary.span.source, one.primary.span.start));
         Ok(found)
     }
 
@@ -213,10 +224,33 @@ impl Reader {
         Ok(id)
     }
 
+    /// Whether the text of a file has been read, under this name or another.
+    pub fn has_read(&self, path: &Path) -> bool {
+        let Ok(path) = path.canonicalize() else { return false };
+        self.taken.iter().any(|(taken, _)| taken.canonicalize().is_ok_and(|taken| taken == path))
+    }
+
     /// What a file defines, if anything.
     pub fn kind(&mut self, path: &Path) -> Result<Option<Kind>, Complaint> {
         let id = self.take(path)?;
         Ok(lang::detect(&self.sources, id))
+    }
+
+    /// The models of the task that the paths of a command line name, with what is wrong with them.
+    fn models(
+        &mut self,
+        paths: &[PathBuf],
+        verb: &str,
+    ) -> Result<(Domain, Problem, Diagnostics), Complaint> {
+        let files = self.expand(paths)?;
+        if let Some(team) = self.team(&files)? {
+            return self.join(&team);
+        }
+        let (domain, problem) = self.task(&files, verb)?;
+        let (domain, mut found) = lang::read_domain(&self.sources, domain);
+        let (problem, more) = lang::read_problem(&self.sources, problem, &domain);
+        found.append(more);
+        Ok((domain, problem, found))
     }
 
     /// The domain and the problem among the paths of a command line; a domain that is left out is looked for.
@@ -264,7 +298,12 @@ impl Reader {
                 };
                 Err(Complaint::with_help(message, help))
             }
-            _ => unreachable!("the command line takes one or two files"),
+            several => Err(Complaint::with_help(
+                format!("these are {} files, and a task is a domain and a problem", several.len()),
+                format!(
+                    "caveat {verb} DOMAIN PROBLEM, or the files of all agents of a task in the factored form"
+                ),
+            )),
         }
     }
 
@@ -373,16 +412,13 @@ pub fn load(
     format: OutputFormat,
     terminal: &mut Terminal,
 ) -> Result<Input, Refusal> {
-    let (domain_id, problem_id) = match reader.task(paths, verb) {
-        Ok(ids) => ids,
+    let (domain, problem, mut found) = match reader.models(paths, verb) {
+        Ok(models) => models,
         Err(complaint) => {
             terminal.say(complaint);
             return Err(Refusal::Wrong);
         }
     };
-    let (domain, mut found) = lang::read_domain(&reader.sources, domain_id);
-    let (problem, more) = lang::read_problem(&reader.sources, problem_id, &domain);
-    found.append(more);
     reader.settle(&mut found);
     found.list.retain(|diagnostic| diagnostic.severity == Severity::Error);
     if !found.list.is_empty() {
@@ -393,6 +429,9 @@ pub fn load(
     if !refusals.list.is_empty() {
         terminal.talk(rendered(&reader.sources, &refusals, format, terminal.colour));
         return Err(Refusal::Unsupported);
+    }
+    if let Some(note) = team::one_of_several(&domain) {
+        terminal.say(note);
     }
     Ok(Input { reader, domain, problem })
 }

@@ -29,6 +29,7 @@ pub mod check;
 pub mod fmt;
 pub mod plan;
 pub mod validate;
+pub mod compile;
 pub mod ground;
 pub mod bench;
 pub mod explain;
@@ -84,6 +85,7 @@ fn dispatch(arguments: &[OsString], terminal: &mut Terminal) -> Exit {
         Verb::Fmt(arguments) => fmt::run(&arguments, terminal),
         Verb::Plan(arguments) => plan::run(&arguments, terminal),
         Verb::Validate(arguments) => validate::run(&arguments, terminal),
+        Verb::Compile(arguments) => compile::run(&arguments, terminal),
         Verb::Ground(arguments) => ground::run(&arguments, terminal),
         Verb::Explain(arguments) => explain::run(&arguments, terminal),
         Verb::Bench(arguments) => bench::run(&arguments, terminal),

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use lang::Kind;
 use lang::diagnostic::Diagnostic;
 use lang::execute::Executor;
 use lang::execute::joint::Concurrency;
@@ -51,12 +50,12 @@ pub fn run(arguments: &Validate, terminal: &mut Terminal) -> Exit {
     Exit::Findings
 }
 
-/// Tells the files of the task from the plans: the first file is the domain or the problem.
+/// Tells the files of the task from the plans, which come after them.
 fn split(
     reader: &mut Reader,
     files: &[PathBuf],
 ) -> Result<(Vec<PathBuf>, Vec<PathBuf>), Complaint> {
-    let count = if matches!(reader.kind(&files[0])?, Some(Kind::Domain { .. })) { 2 } else { 1 };
+    let count = reader.leading(files)?;
     if files.len() <= count {
         return Err(Complaint::with_help(
             "there is no plan to check",

@@ -443,7 +443,9 @@ fn codes_are_explained() {
 fn help_is_data_and_has_examples() {
     let desk = Desk::new();
     let mut shown = String::new();
-    for verb in ["", "check", "plan", "validate", "ground", "bench", "explain", "completions"] {
+    let verbs =
+        ["check", "plan", "validate", "compile", "ground", "bench", "explain", "completions"];
+    for verb in [""].into_iter().chain(verbs) {
         let run = desk.run(&format!("{verb} --help")).ends_with(0);
         assert!(run.stderr.is_empty());
         assert_eq!(

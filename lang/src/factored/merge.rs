@@ -406,10 +406,13 @@ impl<'p> Merger<'p> {
                 }
             }
         }
+        let mut strangers = HashSet::new();
         for id in 0..actors.len() {
             let agents = self.of_parts(&actors[id]);
             let types = self.class(&highest(&self.domain, &declared[id]), &agents);
-            if let Some(stranger) = self.stranger(&types, &agents) {
+            if let Some(stranger) = self.stranger(&types, &agents)
+                && strangers.insert(stranger)
+            {
                 let (action, object) =
                     (&self.domain.actions[id], &self.problem.objects[stranger.index()]);
                 self.diagnostics.push(agent_list_mismatch::stranger(

@@ -86,10 +86,7 @@ impl Sketch {
             action: ActionId(self.normal.schemas.len() as u32),
             variables: names
                 .iter()
-                .map(|name| Variable {
-                    name: (*name).to_owned(),
-                    types: vec![TypeId(0)],
-                })
+                .map(|name| Variable { name: (*name).to_owned(), types: vec![TypeId(0)] })
                 .collect(),
             parameters,
             bound: parameters,
