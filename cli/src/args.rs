@@ -315,6 +315,12 @@ pub struct Compile {
     /// How the task is written.
     #[arg(long, value_name = "FORM", default_value = "classical")]
     pub to: Form,
+    /// Whether a part of a joint step may destroy the precondition of another. By default only where action atoms say what excludes what.
+    #[arg(long, value_name = "MODE")]
+    pub concurrency: Option<ConcurrencyName>,
+    /// How many actions a joint step has at most.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub joint_size: Option<u32>,
     /// How diagnostics look.
     #[arg(long, value_name = "FORMAT", default_value = "full")]
     pub output_format: OutputFormat,
