@@ -4,7 +4,7 @@ use crate::model::{ActionAtom, Atom, Formula, Node, NodeId, NodeKind, Term, Vari
 use crate::source::Span;
 
 /// How deep a formula may be nested to become a tree, since what walks a tree is recursive.
-pub const DEEPEST: usize = 2_000;
+pub const DEEPEST: usize = 500;
 
 /// A condition in which negation stands only before atoms, in the variables of some scope.
 #[derive(Debug, Clone, PartialEq, Eq)]

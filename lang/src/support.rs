@@ -58,11 +58,11 @@ pub const ROWS: [Row; 17] = [
     row(":preferences :constraints", "PDDL 3.0", Support::Checked, "OPTIC"),
     row(":goal-utilities", "PDDL 3.1", Support::Checked, ""),
     row(":time (processes and events)", "PDDL+", Support::Checked, "ENHSP"),
-    row(":multi-agent", "MA-PDDL", Support::Checked, ""),
+    row(":multi-agent", "MA-PDDL", Support::Planned, ""),
     row(
         ":unfactored-privacy :factored-privacy :concurrency-network",
         "MA-PDDL",
-        Support::Checked,
+        Support::Planned,
         "",
     ),
     row(":hierarchy :method-preconditions", "HDDL", Support::Checked, "PANDA"),
