@@ -11,7 +11,7 @@ use crate::lint::condition::Place;
 use crate::model::{Atom, Domain, Literal, Term, Variable};
 
 /// How many pairs of effects are looked at.
-const PAIRS: usize = 50_000;
+const PAIRS: usize = 5_000;
 
 /// What there is to say about each pair of `parts`.
 pub(super) fn check(
