@@ -1,5 +1,6 @@
 //! The one test binary: every module is a family of end-to-end tests.
 
+mod agents;
 mod bad;
 mod brute;
 mod compiled;

@@ -33,23 +33,7 @@ impl Condition {
 
     /// The condition that `formula` is; nothing if it is nested deeper than [`DEEPEST`].
     pub fn new(formula: &Formula) -> Option<Self> {
-        let mut depths: Vec<usize> = Vec::with_capacity(formula.nodes.len());
-        for node in &formula.nodes {
-            let below = |id: &NodeId| depths[id.index()];
-            let depth = match &node.kind {
-                NodeKind::Atom(_) | NodeKind::Equal(..) | NodeKind::Action(_) => 0,
-                NodeKind::Not(child) | NodeKind::Forall(_, child) | NodeKind::Exists(_, child) => {
-                    below(child)
-                }
-                NodeKind::And(children) | NodeKind::Or(children) => {
-                    children.iter().map(below).max().unwrap_or(0)
-                }
-                NodeKind::Imply(left, right) => below(left).max(below(right)),
-            };
-            depths.push(depth + 1);
-        }
-        (depths[formula.root().index()] <= DEEPEST)
-            .then(|| Self::convert(formula, formula.root(), true))
+        (depth(formula) <= DEEPEST).then(|| Self::convert(formula, formula.root(), true))
     }
 
     fn convert(formula: &Formula, id: NodeId, holds: bool) -> Self {
@@ -265,6 +249,26 @@ impl Condition {
         }
         NodeId(nodes.len() as u32 - 1)
     }
+}
+
+/// How deep a formula is nested.
+pub fn depth(formula: &Formula) -> usize {
+    let mut depths: Vec<usize> = Vec::with_capacity(formula.nodes.len());
+    for node in &formula.nodes {
+        let below = |id: &NodeId| depths[id.index()];
+        let depth = match &node.kind {
+            NodeKind::Atom(_) | NodeKind::Equal(..) | NodeKind::Action(_) => 0,
+            NodeKind::Not(child) | NodeKind::Forall(_, child) | NodeKind::Exists(_, child) => {
+                below(child)
+            }
+            NodeKind::And(children) | NodeKind::Or(children) => {
+                children.iter().map(below).max().unwrap_or(0)
+            }
+            NodeKind::Imply(left, right) => below(left).max(below(right)),
+        };
+        depths.push(depth + 1);
+    }
+    depths[formula.root().index()]
 }
 
 /// That two terms are the same, or are not; decided where it can be.

@@ -74,3 +74,52 @@ fn names(domain: &Domain, found: &mut Diagnostics) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::time::{Duration, Instant};
+
+    use crate::source::Sources;
+
+    /// How long the lints may take in a build without optimisation.
+    const LONGEST: Duration = Duration::from_secs(20);
+
+    fn lint(precondition: &str) {
+        let mut sources = Sources::default();
+        let text = format!(
+            "(define (domain d) (:requirements :adl :multi-agent) (:types arm)
+  (:predicates (free ?a - arm ?b - arm) (has ?a - arm ?b - arm))
+  (:action take :agent ?a - arm :parameters (?b - arm)
+    :precondition (and (free ?a ?b) {precondition})
+    :effect (and (not (free ?a ?b)) (has ?a ?b))))"
+        );
+        let id = sources.add("domain.pddl", text);
+        let (domain, found) = crate::read_domain(&sources, id);
+        assert!(!found.has_errors(), "{}", crate::render::concise(&found, &sources));
+        let start = Instant::now();
+        crate::lint::domain(&domain);
+        assert!(start.elapsed() < LONGEST, "it took {:?}", start.elapsed());
+    }
+
+    #[test]
+    fn deep_and_wide_conditions_take_no_long_time() {
+        for (open, close) in [
+            ("(forall (?x - arm) (or (free ?a ?x) ", "))"),
+            ("(forall (?x - arm) (and (free ?x ?a) ", "))"),
+            ("(forall (?x - arm) ", ")"),
+            ("(exists (?x - arm) (and (not (= ?x ?a)) ", "))"),
+        ] {
+            let atom = "(not (take ?x ?b))";
+            for depth in [90, 3000] {
+                lint(&format!("{}{atom}{}", open.repeat(depth), close.repeat(depth)));
+            }
+        }
+        let wide =
+            "(free ?a ?a) (not (free ?b ?a)) (not (= ?a ?b)) (not (take ?b ?a)) ".repeat(3000);
+        lint(&wide);
+        lint(&format!(
+            "(forall (?x - arm) (or {}))",
+            "(take ?x ?b) (not (take ?x ?a)) ".repeat(3000)
+        ));
+    }
+}

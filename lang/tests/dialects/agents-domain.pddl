@@ -14,7 +14,7 @@
   (:action push
     :agent (?a - arm)
     :parameters (?t - table)
-    :precondition (not (lift ?a ?t))
+    :precondition (forall (?b - arm) (not (lift ?b ?t)))
     :effect (not (up ?t)))
   (:action look
     :agent arm

@@ -1,6 +1,8 @@
 //! The action atoms of a domain go in; warnings come out about those that are never true, and about those that say nothing.
 
-use super::part::Part;
+use std::rc::Rc;
+
+use super::part::{self, Part};
 use super::together::{Obstacle, Proof, Side, Together};
 use crate::condition::Condition;
 use crate::diagnostic::{Diagnostics, idle_action_atom, impossible_action_atom};
@@ -13,9 +15,9 @@ use crate::source::Span;
 #[derive(Clone, Default)]
 struct Context {
     /// Which terms are equal, or are not.
-    equal: Vec<(Term, Term, bool)>,
+    equal: Rc<Vec<(Term, Term, bool)>>,
     /// What quantifiers say there is.
-    some: Vec<VariableId>,
+    some: Rc<Vec<VariableId>>,
     /// Whether the whole condition demands what stands here.
     needed: bool,
     /// Whether nothing but equations stands beside.
@@ -49,7 +51,7 @@ fn walk<'c>(condition: &'c Condition, context: Context, found: &mut Vec<Found<'c
             });
             let mut inner = context;
             let count = inner.equal.len();
-            inner.equal.extend(beside);
+            Rc::make_mut(&mut inner.equal).extend(beside);
             inner.needed &= all;
             inner.alone &= all && inner.equal.len() - count + 1 >= parts.len();
             for part in parts {
@@ -58,7 +60,7 @@ fn walk<'c>(condition: &'c Condition, context: Context, found: &mut Vec<Found<'c
         }
         Condition::Exists(variables, body) => {
             let mut inner = Context { alone: true, ..context };
-            inner.some.extend(variables);
+            Rc::make_mut(&mut inner.some).extend(variables);
             walk(body, inner, found);
         }
         Condition::Forall(_, body) => {
@@ -162,7 +164,7 @@ fn span(formula: &Formula, atom: &ActionAtom, action: Span) -> Option<Span> {
 /// Warns of actions that need another agent beside their own where a problem has only one.
 pub(super) fn alone(domain: &Domain, problem: &Problem, found: &mut Diagnostics) {
     for (id, action) in domain.actions.iter().enumerate().filter(|(_, action)| action.agent) {
-        let Some(condition) = Condition::new(&action.precondition) else { continue };
+        let Some(condition) = part::condition(&action.precondition) else { continue };
         let own = Term::Variable(VariableId(0));
         for one in atoms(&condition) {
             let agent = one.atom.arguments[0];

@@ -11,7 +11,7 @@ use crate::lint::condition::Place;
 use crate::model::{Atom, Domain, Literal, Term, Variable};
 
 /// How many pairs of effects are looked at.
-const PAIRS: usize = 50_000;
+const PAIRS: usize = 5_000;
 
 /// What there is to say about each pair of `parts`.
 pub(super) fn check(
@@ -225,7 +225,8 @@ fn literals<'m>(
 fn forbid(domain: &Domain, together: &Together<'_, '_>) -> String {
     let [own, other] = [Side::First, Side::Second].map(|side| together.part(side));
     let names = &own.action.scope.variables;
-    let taken = |name: &str| names.iter().any(|one| one.name.text.eq_ignore_ascii_case(name));
+    let parameters = &names[..own.action.scope.parameters as usize];
+    let taken = |name: &str| parameters.iter().any(|one| one.name.text.eq_ignore_ascii_case(name));
     let fresh = |variable: &Variable, name: &str| {
         let mut variable = variable.clone();
         name.clone_into(&mut variable.name.text);

@@ -1,7 +1,7 @@
 //! An action goes in; the same as a possible part of a joint action comes out: what it demands, and what it changes under which condition.
 
-use crate::condition::Condition;
-use crate::model::{Action, ActionId, Atom, Literal, Term, VariableId};
+use crate::condition::{Condition, depth};
+use crate::model::{Action, ActionId, Atom, Formula, Literal, Term, VariableId};
 
 /// Who takes a part.
 pub(super) const AGENT: Term = Term::Variable(VariableId(0));
@@ -35,14 +35,14 @@ impl<'m> Part<'m> {
         let change = |effect: &'m crate::model::Effect| {
             Some(Change {
                 variables: &effect.variables,
-                condition: spread(Condition::new(&effect.condition)?),
+                condition: condition(&effect.condition)?,
                 literals: &effect.literals,
             })
         };
         Some(Self {
             id,
             action,
-            precondition: spread(Condition::new(&action.precondition)?),
+            precondition: condition(&action.precondition)?,
             changes: action.effects.iter().map(change).collect::<Option<_>>()?,
         })
     }
@@ -75,6 +75,15 @@ impl<'m> Part<'m> {
     }
 }
 
+/// How deep a condition that people write may be nested.
+const DEEPEST: usize = 200;
+
+/// A condition in the form in which the lints look at it; nothing if it is nested too deep.
+pub(super) fn condition(formula: &Formula) -> Option<Condition> {
+    let short = depth(formula) <= DEEPEST;
+    short.then(|| Condition::new(formula).map(spread)).flatten()
+}
+
 /// The same with one quantifier over each conjunct in place of one over all, and in place of several around one another.
 fn spread(condition: Condition) -> Condition {
     match condition {
@@ -82,12 +91,21 @@ fn spread(condition: Condition) -> Condition {
         Condition::Any(parts) => Condition::any(parts.into_iter().map(spread)),
         Condition::Exists(variables, body) => Condition::exists(variables, spread(*body)),
         Condition::Forall(variables, body) => match spread(*body) {
-            Condition::All(parts) => Condition::all(
-                parts.into_iter().map(|part| spread(Condition::forall(variables.clone(), part))),
-            ),
-            Condition::Forall(inner, body) => Condition::Forall([variables, inner].concat(), body),
-            body => Condition::forall(variables, body),
+            Condition::All(parts) => {
+                Condition::all(parts.into_iter().map(|part| under(&variables, part)))
+            }
+            body => under(&variables, body),
         },
         leaf => leaf,
+    }
+}
+
+/// A condition that is spread already, for every binding of more variables.
+fn under(variables: &[VariableId], condition: Condition) -> Condition {
+    match condition {
+        Condition::Forall(inner, body) => {
+            Condition::Forall([variables, inner.as_slice()].concat(), body)
+        }
+        body => Condition::forall(variables.to_vec(), body),
     }
 }

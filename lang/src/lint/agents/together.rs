@@ -2,10 +2,14 @@
 //!
 //! Objects that need not be the same are taken as different ones, so that an answer is about the most general such pair.
 
-use super::invariant::Invariant;
+use std::cell::Cell;
+
+use hashbrown::{HashMap, HashSet};
+
+use super::invariant::{About, Invariant};
 use super::part::{AGENT, Part};
 use crate::condition::Condition;
-use crate::model::{ActionAtom, Atom, Domain, ObjectId, Term, TypeId, VariableId};
+use crate::model::{ActionAtom, Atom, Domain, ObjectId, PredicateId, Term, TypeId, VariableId};
 
 /// Which of the two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,6 +52,9 @@ pub(super) enum Proof {
     Certain,
 }
 
+/// How many parts of conditions are looked at: quantifiers that stand in one another have many instances.
+const STEPS: u32 = 20_000;
+
 /// Two actions, each by an agent of its own.
 pub(super) struct Together<'p, 'm> {
     domain: &'m Domain,
@@ -57,6 +64,8 @@ pub(super) struct Together<'p, 'm> {
     proof: Proof,
     /// For each variable of the first, of the second and for each constant, one that is the same object; itself if it speaks for all of them.
     same: Vec<usize>,
+    /// How many more parts of conditions are looked at.
+    steps: Cell<u32>,
 }
 
 /// What the variables of quantifiers stand for, the innermost last; nothing if it may be anything.
@@ -71,7 +80,7 @@ impl<'p, 'm> Together<'p, 'm> {
     ) -> Self {
         let variables = parts.iter().map(|part| part.action.scope.variables.len());
         let terms = variables.sum::<usize>() + domain.constants.len();
-        Self { domain, parts, beside, proof, same: (0..terms).collect() }
+        Self { domain, parts, beside, proof, same: (0..terms).collect(), steps: Cell::new(STEPS) }
     }
 
     pub(super) fn part(&self, side: Side) -> &'p Part<'m> {
@@ -197,12 +206,14 @@ impl<'p, 'm> Together<'p, 'm> {
 
     /// Whether a fact is demanded and its opposite too.
     fn contradict(&self) -> bool {
-        let demands = self.demands();
-        demands.iter().filter(|(_, _, holds)| *holds).any(|&(side, atom, _)| {
-            demands.iter().any(|&(other, against, held)| {
-                !held && self.same_fact((side, atom), (other, against))
-            })
-        })
+        let fact = |side: Side, atom: &Atom| -> (PredicateId, Vec<usize>) {
+            let objects = atom.arguments.iter().map(|&term| self.object(side, term));
+            (atom.predicate, objects.collect())
+        };
+        let (held, denied): (Vec<_>, Vec<_>) =
+            self.demands().into_iter().partition(|(_, _, holds)| *holds);
+        let held: HashSet<_> = held.into_iter().map(|(side, atom, _)| fact(side, atom)).collect();
+        denied.into_iter().any(|(side, atom, _)| held.contains(&fact(side, atom)))
     }
 
     /// Makes the same what equations and invariants say is the same; says whether something was not.
@@ -232,20 +243,20 @@ impl<'p, 'm> Together<'p, 'm> {
         rivals.iter().any(|[left, right]| left.1.predicate != right.1.predicate)
     }
 
-    /// The demanded facts of which an invariant says that only one can hold.
+    /// The demanded facts of which an invariant says that only one can hold, each with the first of its kind.
     fn rivals(&self, exclusive: &[Invariant]) -> Vec<[(Side, &'p Atom); 2]> {
         let demands = self.demands();
         let mut rivals = Vec::new();
         for invariant in exclusive {
-            let of = |&(side, atom, holds): &(Side, &'p Atom, bool)| {
+            let mut first: HashMap<usize, (Side, &'p Atom)> = HashMap::new();
+            for &(side, atom, holds) in &demands {
                 // Of the whole state there may be many such facts from the start; of one object that is rare.
-                let key = invariant.about(atom)?.object().filter(|_| holds)?;
-                Some((self.object(side, key), (side, atom)))
-            };
-            let facts: Vec<_> = demands.iter().filter_map(of).collect();
-            for (at, &(key, fact)) in facts.iter().enumerate() {
-                let after = facts[at + 1..].iter().filter(|(other, _)| *other == key);
-                rivals.extend(after.map(|&(_, other)| [fact, other]));
+                let about = invariant.about(atom).and_then(About::object).filter(|_| holds);
+                let Some(about) = about else { continue };
+                let before = *first.entry(self.object(side, about)).or_insert((side, atom));
+                if !std::ptr::eq(before.1, atom) || before.0 != side {
+                    rivals.push([before, (side, atom)]);
+                }
             }
         }
         rivals
@@ -296,6 +307,10 @@ impl<'p, 'm> Together<'p, 'm> {
 
     /// Whether a condition of a side does not hold when the two are taken. The own atom counts where `own` says so.
     fn fails(&self, side: Side, condition: &Condition, binding: &Binding, own: bool) -> bool {
+        let Some(left) = self.steps.get().checked_sub(1) else {
+            return self.proof == Proof::Likely;
+        };
+        self.steps.set(left);
         match condition {
             Condition::Atom(..) => false,
             Condition::Equal(left, right, holds) => {

@@ -1,0 +1,5 @@
+(define (problem wardrobe)
+  (:domain joint)
+  (:objects ann bob - helper red - shirt back - door)
+  (:init (free red))
+  (:goal (and (through ann) (through bob) (worn ann red) (clean red))))
