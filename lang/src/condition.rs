@@ -109,6 +109,11 @@ impl Condition {
     }
 
     /// The opposite.
+    #[must_use]
+    #[expect(
+        clippy::should_implement_trait,
+        reason = "it is called by its name, like the others here"
+    )]
     pub fn not(self) -> Self {
         match self {
             Self::Atom(atom, holds) => Self::Atom(atom, !holds),
@@ -122,6 +127,7 @@ impl Condition {
     }
 
     /// The same with another leaf in place of each leaf.
+    #[must_use]
     pub fn map(self, leaf: &mut dyn FnMut(Self) -> Self) -> Self {
         match self {
             Self::All(parts) => Self::all(parts.into_iter().map(|part| part.map(leaf))),
@@ -133,6 +139,7 @@ impl Condition {
     }
 
     /// The same with other terms. What quantifiers bind stays.
+    #[must_use]
     pub fn substitute(self, term: &dyn Fn(Term) -> Term) -> Self {
         self.map(&mut |leaf| match leaf {
             Self::Atom(mut atom, holds) => {
@@ -149,6 +156,7 @@ impl Condition {
     }
 
     /// The same with other variables, also where quantifiers bind them.
+    #[must_use]
     pub fn rename(self, new: &dyn Fn(VariableId) -> Term) -> Self {
         let term = |term| match term {
             Term::Variable(variable) => new(variable),

@@ -318,6 +318,7 @@ impl<'a> Executor<'a> {
     }
 
     /// The bindings beyond `binding` that satisfy `goals`, which are about `formula`.
+    #[expect(clippy::unused_self, reason = "the view is one of this executor")]
     pub(crate) fn solutions<'b>(
         &'b self,
         view: View<'b>,

@@ -204,7 +204,9 @@ fn tokens(
     });
     let before = order(agents, &types, assembly);
     assembly.init(idle, &[]);
-    agents.iter().for_each(|&agent| assembly.init(free, &[agent]));
+    for &agent in agents {
+        assembly.init(free, &[agent]);
+    }
     if let Some([free, _]) = nobody {
         assembly.init(free, &[]);
     }

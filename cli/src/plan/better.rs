@@ -48,7 +48,8 @@ impl Planning<'_> {
                 *best = plan;
             }
         };
-        for (strategy, stage) in OTHERS.into_iter().flat_map(|one| small.map(|stage| (one, stage)))
+        for (strategy, stage) in
+            OTHERS.into_iter().filter_map(|one| small.map(|stage| (one, stage)))
         {
             let Some(work) = effort.others else { break };
             if let (Some(plan), _) = self.bounded(stage, strategy, Some(work)) {
@@ -66,7 +67,7 @@ impl Planning<'_> {
             return false;
         }
         let Ok(stage) = self.stage(compiled) else { return false };
-        let strategy = Strategy::AStar(self.bound(objective));
+        let strategy = Strategy::AStar(Self::bound(objective));
         let (plan, solved) = self.bounded(&stage, strategy, effort.optimal);
         if let Some(plan) = plan {
             take(plan, &mut best);

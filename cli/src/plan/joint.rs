@@ -159,7 +159,7 @@ impl Planning<'_> {
     fn optimal(&self) -> Found {
         let objective = self.objective();
         let (means, strategy) = match objective {
-            Objective::Steps => (Means::Block, Strategy::AStar(self.bound(objective))),
+            Objective::Steps => (Means::Block, Strategy::AStar(Self::bound(objective))),
             _ => (Means::Complete, self.strategy),
         };
         let stage = self.stage(self.compile(means, Some(objective))?)?;
@@ -173,7 +173,7 @@ impl Planning<'_> {
     }
 
     /// What bounds the distance from below when plans are to be optimal: that a block has begun is all that other heuristics see of joint steps.
-    pub(super) fn bound(&self, objective: Objective) -> Kind {
+    pub(super) fn bound(objective: Objective) -> Kind {
         if objective == Objective::Steps { Kind::Blind } else { Kind::LmCut }
     }
 

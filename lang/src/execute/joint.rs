@@ -29,7 +29,7 @@ pub enum Concurrency {
 }
 
 impl Concurrency {
-    /// What a domain means: one of CoDMAP, which has privacy and no action atoms, is safe; all others say themselves what excludes what.
+    /// What a domain means: one of the `CoDMAP` competition, which has privacy and no action atoms, is safe; all others say themselves what excludes what.
     pub fn of(domain: &Domain) -> Self {
         let private = domain.requirements.contains(&Requirement::FactoredPrivacy)
             || domain.requirements.contains(&Requirement::UnfactoredPrivacy)

@@ -23,12 +23,18 @@ pub(super) struct Assembly {
     pub(super) span: Span,
 }
 
+/// An effect: what it binds, when it happens, and the facts that it adds or deletes.
+pub(super) type Change = (Vec<VariableId>, Condition, Vec<(Atom, bool)>);
+
+/// What tells one literal of an effect from another.
+type Key = (Vec<VariableId>, String, PredicateId, Vec<Term>, bool);
+
 /// An action that is put together.
 pub(super) struct Draft {
     pub(super) name: String,
     pub(super) scope: Scope,
     pub(super) precondition: Vec<Condition>,
-    pub(super) effects: Vec<(Vec<VariableId>, Condition, Vec<(Atom, bool)>)>,
+    pub(super) effects: Vec<Change>,
     pub(super) increases: Vec<Increase>,
     pub(super) note: String,
 }
@@ -131,8 +137,7 @@ impl Assembly {
         let name = self.name(unused(&name, free));
         let mut bound = HashSet::new();
         let precondition = freshen(Condition::all(precondition), &mut scope, &mut bound);
-        let mut written: BTreeSet<(Vec<VariableId>, String, PredicateId, Vec<Term>, bool)> =
-            BTreeSet::new();
+        let mut written: BTreeSet<Key> = BTreeSet::new();
         let mut list = Vec::new();
         for (variables, condition, literals) in effects {
             let condition = freshen(condition, &mut scope, &mut bound);

@@ -531,7 +531,9 @@ impl Block<'_> {
         for increase in &mut draft.increases {
             increase.arguments.iter_mut().for_each(|argument| *argument = term(*argument));
             if let Expression::Function(_, arguments) = &mut increase.value {
-                arguments.iter_mut().for_each(|argument| *argument = term(*argument));
+                for argument in arguments {
+                    *argument = term(*argument);
+                }
             }
         }
         let [from, to] = [own, own + 1].map(|at| Term::Variable(VariableId(at)));
@@ -543,6 +545,7 @@ impl Block<'_> {
     }
 
     /// The patterns that an instance of a schema fits: the facts that it is used and that it is forbidden.
+    #[expect(clippy::unused_self, reason = "it reads like the other questions about a schema")]
     fn uses(&self, at: usize, stage: &Stage) -> Vec<(Atom, Atom)> {
         let fitting = stage.patterns.iter().filter(|((other, _), _)| *other == at);
         fitting
@@ -628,6 +631,7 @@ impl Block<'_> {
     }
 
     /// Takes down that a fact is added or deleted, and sees to it that no other part does the opposite.
+    #[expect(clippy::unused_self, reason = "it reads like the other parts of an action")]
     fn mark(
         &self,
         effect: &Effect,

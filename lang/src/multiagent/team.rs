@@ -5,6 +5,7 @@
 //! of Shekhar & Brafman (ICAPS 2018), found rather than written down.
 
 use std::collections::BTreeSet;
+use std::fmt::Write;
 
 use super::schema::Schema;
 use super::world::{Simplifier, World};
@@ -63,9 +64,10 @@ impl Team {
                 Term::Variable(id) if id.0 < own.parameters => {
                     self.members[of].arguments[id.index()]
                 }
-                Term::Variable(id) => match bound.iter().find(|(known, _)| *known == id) {
-                    Some(&(_, argument)) => argument,
-                    None => {
+                Term::Variable(id) => {
+                    if let Some(&(_, argument)) = bound.iter().find(|(known, _)| *known == id) {
+                        argument
+                    } else {
                         // The variable of the atom may be narrower than the parameter.
                         let mut variable = parameter.clone();
                         let types = &own.variables[id.index()].types;
@@ -77,7 +79,7 @@ impl Team {
                         bound.push((id, argument));
                         argument
                     }
-                },
+                }
             };
             team.narrow(argument, parameter, world)?;
             arguments.push(argument);
@@ -114,16 +116,18 @@ impl Team {
             let (mut next, mut text) = (0, String::new());
             for &at in &order {
                 let member = &self.members[at];
-                text.push_str(&format!("{}(", member.schema));
+                write!(text, "{}(", member.schema).expect("a string takes all");
                 for &term in &member.arguments {
                     match term {
-                        Term::Object(id) => text.push_str(&format!("o{} ", id.0)),
+                        Term::Object(id) => {
+                            write!(text, "o{} ", id.0).expect("a string takes all");
+                        }
                         Term::Variable(id) => {
                             let number = *numbers[id.index()].get_or_insert_with(|| {
                                 next += 1;
                                 next
                             });
-                            text.push_str(&format!("{number} "));
+                            write!(text, "{number} ").expect("a string takes all");
                         }
                     }
                 }
@@ -286,6 +290,7 @@ impl Finder<'_> {
     }
 
     /// The variables of a team as a scope in which conditions can be written.
+    #[expect(clippy::unused_self, reason = "it reads like the other questions about a team")]
     pub(super) fn scope(&self, team: &Team) -> Scope {
         Scope { variables: team.variables.clone(), parameters: team.variables.len() as u32 }
     }
