@@ -1,3 +1,4 @@
+; caveat: allow(conflicting-effects)
 ;; Table: a table that must be lifted at all its sides at once, and blocks that are carried on it.
 ;;
 ;; The example is as old as planning with concurrent actions (Boutilier and Brafman 2001, Kovács 2012).

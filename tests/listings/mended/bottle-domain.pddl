@@ -1,3 +1,4 @@
+; caveat: allow(shared-fact)
 (define (domain bottle)
 (:requirements :adl :multi-agent)
 (:types agent thing - object lid bottle - thing)
