@@ -11,6 +11,7 @@
 
 mod world;
 mod schema;
+mod protect;
 mod team;
 mod interact;
 mod assembly;

@@ -1,6 +1,8 @@
 //! The actions of a domain go in; their conditions come out as trees, with what the semantics adds to them written out as action atoms:
 //! that no part adds what another deletes and, where parts must not interfere, that none destroys the precondition of another.
 
+use super::interact::Feeds;
+use super::protect::{Protector, counting_own};
 use super::world::{Simplifier, World};
 use crate::condition::{self, Condition};
 use crate::execute::joint::Concurrency;
@@ -114,24 +116,31 @@ fn others(condition: Condition, actions: &[Action]) -> Condition {
 }
 
 /// The schemas of `world`'s domain. Nothing if a condition is nested too deep. Also whether they say exactly what the semantics does,
-/// and not more: with [`Concurrency::Safe`], every fact of a precondition is protected, even where another one would do instead.
+/// and not more: with [`Concurrency::Safe`], what recursive derived predicates depend on must not be changed at all.
 pub(super) fn schemas(world: &World<'_>, concurrency: Concurrency) -> Option<(Vec<Schema>, bool)> {
     let actions = &world.domain.actions;
     let mut schemas = (0..actions.len() as u32)
         .map(|at| Schema::new(ActionId(at), actions))
         .collect::<Option<Vec<_>>>()?;
     let plain = schemas.clone();
+    let feeds = Feeds::new(world);
     let mut exact = true;
     for (schema, own) in schemas.iter_mut().zip(&plain) {
-        for other in &plain {
-            let (mut added, clashes) = conflicts(world, own, other, &mut schema.scope);
-            schema.clashes.extend(clashes);
-            if concurrency == Concurrency::Safe {
-                added.extend(protections(world, own, other, &mut schema.scope, &mut exact));
-            }
-            let before = std::mem::replace(&mut schema.precondition, Condition::TRUE);
-            schema.precondition = Condition::all(std::iter::once(before).chain(added));
+        let mut added = Vec::new();
+        if concurrency == Concurrency::Safe {
+            let (schemas, feeds, own) = (&plain, &feeds, own.clone());
+            let mut protector = Protector { world, schemas, feeds, own, exact: true };
+            added = protector.demands();
+            exact &= protector.exact;
+            schema.scope = protector.own.scope;
         }
+        for other in &plain {
+            let (plain, clashes) = conflicts(world, own, other, &mut schema.scope);
+            added.extend(plain);
+            schema.clashes.extend(clashes);
+        }
+        let before = std::mem::replace(&mut schema.precondition, Condition::TRUE);
+        schema.precondition = Condition::all(std::iter::once(before).chain(added));
         let simplifier = Simplifier { world, variables: &schema.scope.variables, distinct: &[] };
         let before = std::mem::replace(&mut schema.precondition, Condition::TRUE);
         schema.precondition = simplifier.simplify(before);
@@ -164,7 +173,7 @@ fn conflicts(
                         &mut clashes
                     };
                     let mine = (mine.variables.clone(), mine.condition.clone());
-                    list.push(never(scope, mine, &literal.atom, other, theirs, &against.atom));
+                    list.push(never(scope, own, mine, &literal.atom, (other, theirs, &against.atom)));
                 }
             }
         }
@@ -172,54 +181,13 @@ fn conflicts(
     (plain, clashes)
 }
 
-/// That no instance of `other` destroys a literal of the precondition of `own`.
-fn protections(
-    world: &World<'_>,
-    own: &Schema,
-    other: &Schema,
+/// That no other instance of a schema has the effect on the very fact `atom`, while `mine` holds; `owner` is who demands it.
+pub(super) fn never(
     scope: &mut Scope,
-    exact: &mut bool,
-) -> Vec<Condition> {
-    let mut added = Vec::new();
-    for part in own.precondition.conjuncts() {
-        let single = matches!(part, Condition::Atom(..));
-        let mut leaves = Vec::new();
-        part.visit(&mut |leaf| {
-            if let Condition::Atom(atom, holds) = leaf {
-                leaves.push((atom.clone(), *holds));
-            }
-        });
-        for (atom, holds) in leaves {
-            for theirs in &other.effects {
-                for against in theirs.literals.iter().filter(|one| one.positive != holds) {
-                    // A derived predicate is changed by nothing directly.
-                    if !may_meet(world, (own, &atom), (other, &against.atom)) {
-                        continue;
-                    }
-                    *exact &= single;
-                    let bound = atom.arguments.iter().filter_map(|&term| match term {
-                        Term::Variable(id) if id.0 >= own.scope.parameters => Some(id),
-                        _ => None,
-                    });
-                    let mine = (bound.collect(), Condition::TRUE);
-                    added.push(never(scope, mine, &atom, other, theirs, &against.atom));
-                }
-            }
-            let derived = world.domain.predicates[atom.predicate.index()].derived;
-            *exact &= !derived;
-        }
-    }
-    added
-}
-
-/// That there is no instance of `other` with an effect on the very fact `atom`, while `mine` holds.
-fn never(
-    scope: &mut Scope,
+    owner: &Schema,
     mine: (Vec<VariableId>, Condition),
     atom: &Atom,
-    other: &Schema,
-    theirs: &Effect,
-    against: &Atom,
+    (other, theirs, against): (&Schema, &Effect, &Atom),
 ) -> Condition {
     // Both sides get variables of their own, since each binder must have its own.
     let own_bound: Vec<VariableId> = (0..scope.variables.len() as u32).map(VariableId).collect();
@@ -233,21 +201,13 @@ fn never(
         object @ Term::Object(_) => object,
     };
     let mine_new = |variable: VariableId| own[variable.index()];
-    let mut parts = vec![
-        Condition::Action(
-            ActionAtom {
-                action: other.id,
-                arguments: (0..other.scope.parameters)
-                    .map(|at| theirs_new(VariableId(at)))
-                    .collect(),
-            },
-            true,
-        ),
-        condition.rename(&mine_new),
-        theirs.condition.clone().rename(&theirs_new),
-    ];
+    let conditions =
+        [condition.rename(&mine_new), theirs.condition.clone().rename(&theirs_new)];
+    let mut parts = vec![counting_own(Condition::all(conditions).not(), owner)];
+    let arguments = (0..other.scope.parameters).map(|at| theirs_new(VariableId(at))).collect();
+    parts.push(Condition::Action(ActionAtom { action: other.id, arguments }, false));
     for (&left, &right) in atom.arguments.iter().zip(&against.arguments) {
-        parts.push(condition::equal(term(left, &mine_new), term(right, &theirs_new), true));
+        parts.push(condition::equal(term(left, &mine_new), term(right, &theirs_new), false));
     }
     let mut bound: Vec<VariableId> = variables
         .iter()
@@ -258,7 +218,7 @@ fn never(
         .collect();
     bound.extend((0..other.scope.parameters).map(|at| VariableId(first + at)));
     bound.extend(theirs.variables.iter().map(|variable| VariableId(first + variable.0)));
-    Condition::exists(bound, Condition::all(parts)).not()
+    Condition::forall(bound, Condition::any(parts))
 }
 
 /// Fresh copies of the variables `copied` in `scope`; all others stay.
