@@ -37,6 +37,20 @@ fn cases() -> u32 {
     if asked { ProptestConfig::default().cases } else { 300 }
 }
 
+/// Whether derived predicates depend on themselves, directly or by way of one another.
+fn is_recursive(domain: &str) -> bool {
+    let rules: Vec<(&str, &str)> = domain
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("(:derived (")?.split_once([' ', ')']))
+        .collect();
+    let asks = |body: &str, head: &str| {
+        [' ', ')'].iter().any(|end| body.contains(&format!("({head}{end}")))
+    };
+    rules.iter().any(|(head, body)| {
+        asks(body, head) || rules.iter().any(|(other, back)| asks(body, other) && asks(back, head))
+    })
+}
+
 /// Plans in `folder`; what the plan amounts to under the second semantics, nothing if there is none.
 fn plan(folder: &Path, world: &World, options: &[&str]) -> Result<Option<Tally>, String> {
     let file = folder.join("plan");
@@ -88,13 +102,18 @@ fn compare(
     for (name, text) in [("domain.pddl", &texts.domain), ("problem.pddl", &texts.problem)] {
         fs::write(folder.path().join(name), text).map_err(|error| error.to_string())?;
     }
-    let first = plan(folder.path(), &world, &options)?;
+    // What recursive rules need cannot be said exactly: plans may be missed, and that is said.
+    let approximate = world.safe && is_recursive(&texts.domain);
+    let first = match plan(folder.path(), &world, &options) {
+        Err(reason) if approximate && reason.starts_with("Incomplete") => return Ok(()),
+        first => first?,
+    };
     if first.is_some() != known.is_some() {
         return Err(format!("the first plan: {first:?}, the least {objective}: {known:?}"));
     }
     options.extend(["--optimal", "--objective", objective]);
     let best = plan(folder.path(), &world, &options)?.map(|tally| amount(measure, tally));
-    if best != known {
+    if best != known && !(approximate && best > known) {
         return Err(format!("the best plan has {objective} {best:?}, the least is {known:?}"));
     }
     Ok(())

@@ -1,19 +1,15 @@
-//! Small multi-agent problems and how many joint steps they need go in; every difference from what trying all joint actions finds comes out.
+//! Small multi-agent problems and how many joint steps they need go in, as trying all joint actions has told; every optimal plan of another length comes out.
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use cli::exit::Exit;
+use cli::terminal::Terminal;
 use lang::execute::Executor;
 use lang::execute::joint::Concurrency;
-use lang::model::{Domain, Problem};
-use lang::render;
-use lang::source::{SourceId, Sources};
+use lang::source::Sources;
 use lang::validate::joint::{Success, Verdict, judge};
-
-use crate::brute::{self, Objective};
-
-/// More states than any of these problems has.
-const LIMIT: usize = 20_000;
 
 /// The problems of the multi-agent domains, each with its text.
 fn problems() -> Vec<(PathBuf, String)> {
@@ -43,36 +39,34 @@ fn stated(text: &str, words: &str) -> Option<usize> {
     rest.next()?.split_whitespace().next()?.parse().ok()
 }
 
-/// Both models of a task.
-fn read(domain: &Path, problem: &Path) -> (Domain, Problem) {
-    let mut sources = Sources::default();
-    let mut add = |path: &Path| -> SourceId {
-        let text =
-            fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-        sources.add(path.display().to_string(), text)
-    };
-    let (first, second) = (add(domain), add(problem));
-    let (domain, mut diagnostics) = lang::read_domain(&sources, first);
-    let (problem, more) = lang::read_problem(&sources, second, &domain);
-    diagnostics.append(more);
-    assert!(!diagnostics.has_errors(), "{}", render::concise(&diagnostics, &sources));
-    (domain, problem)
-}
-
 /// What the best joint plan of a task comes to, by what counts; nothing if there is no joint plan.
-/// What was found is valid, as the validator has it.
-fn needs(domain: &Path, problem: &Path, objective: Objective) -> Option<Success> {
+/// The program proves it optimal, and the plan that it writes is read again and judged.
+fn needs(domain: &Path, problem: &Path, objective: &str) -> Option<Success> {
     let shown = problem.display();
-    let (domain, problem) = read(domain, problem);
-    assert!(domain.is_multi_agent(), "{shown}");
-    let executor = Executor::new(&domain, &problem).expect("no axiom denies itself");
-    let concurrency = Concurrency::of(&domain);
-    let plan = match objective {
-        Objective::Steps => brute::shortest(&executor, concurrency, LIMIT),
-        objective => brute::best(&executor, concurrency, objective, LIMIT),
-    };
-    let plan = plan.unwrap_or_else(|_| panic!("{shown} has more than {LIMIT} states"))?;
-    match judge(&executor, &plan, concurrency) {
+    let folder = tempfile::tempdir().expect("there is room for a plan");
+    let file = folder.path().join("plan");
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let arguments = ["caveat", "plan", "--optimal", "--objective", objective, "--plan-file"];
+    let arguments = arguments.map(OsString::from).into_iter();
+    let files = [&file, domain, problem].map(|path: &Path| path.as_os_str().to_owned());
+    let exit = cli::call(arguments.chain(files), &mut Terminal::new(&mut out, &mut err));
+    let said = String::from_utf8_lossy(&err);
+    match exit {
+        Exit::Done => assert!(said.contains("proved to be optimal"), "{shown}: {said}"),
+        Exit::Unreachable | Exit::Exhausted => return None,
+        other => panic!("{shown}: {other:?}: {said}"),
+    }
+    let mut sources = Sources::default();
+    let ids = [domain, problem, &file].map(|path| {
+        let text = fs::read_to_string(path).expect("it was read or written just now");
+        sources.add(path.display().to_string(), text)
+    });
+    let (domain, _) = lang::read_domain(&sources, ids[0]);
+    let (problem, _) = lang::read_problem(&sources, ids[1], &domain);
+    let (listing, found) = lang::plan::read(&sources, ids[2], &domain, &problem);
+    assert_eq!(found.list, [], "{shown}");
+    let executor = Executor::new(&domain, &problem).expect("it has been planned");
+    match judge(&executor, &listing.joint().0, Concurrency::of(&domain)) {
         Verdict::Valid(success) => Some(success),
         Verdict::Invalid(failure) => panic!("{shown}: {failure:?}"),
     }
@@ -83,7 +77,7 @@ fn problems_of_the_reference_domains_need_as_many_joint_steps_as_they_state() {
     let mut wrong = Vec::new();
     for (file, text) in problems() {
         let domain = file.with_file_name("domain.pddl");
-        let steps = needs(&domain, &file, Objective::Steps).map(|best| best.steps);
+        let steps = needs(&domain, &file, "steps").map(|best| best.steps);
         if steps != stated(&text, "shortest joint plan: ") || steps.is_none() {
             wrong.push(format!("{}: {steps:?} joint steps", file.display()));
         }
@@ -100,7 +94,7 @@ fn problems_with_a_metric_cost_as_much_as_they_state() {
             continue;
         };
         seen += 1;
-        let cost = needs(&file.with_file_name("domain.pddl"), &file, Objective::Cost);
+        let cost = needs(&file.with_file_name("domain.pddl"), &file, "cost");
         assert_eq!(cost.map(|best| best.cost), Some(stated.into()), "{}", file.display());
     }
     assert!(seen > 0, "no problem has a metric");
@@ -113,7 +107,7 @@ fn what_counts_decides_which_joint_plan_is_best() {
         let (domain, problem) = (folder.join("domain.pddl"), folder.join("two-carts.pddl"));
         needs(&domain, &problem, objective).expect("it has a joint plan")
     };
-    let (steps, actions) = (best(Objective::Steps), best(Objective::Actions));
+    let (steps, actions) = (best("steps"), best("actions"));
     // One cart brings both crates; with two carts there is one drive more.
     assert_eq!((steps.steps, actions.actions), (6, 9));
     assert!(steps.actions > actions.actions && steps.steps < actions.steps);
@@ -150,7 +144,7 @@ fn cases_of_the_corpus_need_exactly_as_many_joint_steps() {
     for (problem, case) in cases {
         let domain = case["domain"].as_str().expect("each case has a domain");
         let expected = case["opt_joint_steps"].as_i64().expect("each case has a length");
-        let found = needs(&corpus.join(domain), &corpus.join(problem), Objective::Steps);
+        let found = needs(&corpus.join(domain), &corpus.join(problem), "steps");
         let found = found.map_or(-1, |best| best.steps as i64);
         if found != expected {
             wrong.push(format!("{problem}: {found}, and not {expected}"));

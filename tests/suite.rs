@@ -2,7 +2,6 @@
 
 mod agents;
 mod bad;
-mod brute;
 mod compiled;
 mod costs;
 mod domains;

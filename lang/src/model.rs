@@ -498,6 +498,23 @@ pub struct Problem {
 }
 
 impl Domain {
+    /// A domain with nothing in it but its name, not even the type `object`.
+    pub fn new(name: Name) -> Self {
+        Self {
+            name,
+            requirements: BTreeSet::new(),
+            types: Vec::new(),
+            constants: Vec::new(),
+            predicates: Vec::new(),
+            functions: Vec::new(),
+            axioms: Vec::new(),
+            actions: Vec::new(),
+            signatures: Vec::new(),
+            preferences: Vec::new(),
+            uses: Vec::new(),
+        }
+    }
+
     /// Whether agents act in it, so that plans consist of joint actions.
     pub fn is_multi_agent(&self) -> bool {
         self.actions.iter().any(|action| action.agent)

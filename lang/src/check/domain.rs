@@ -49,17 +49,9 @@ pub fn domain(
         report.need(Need::Types, first.span);
     }
     let mut domain = Domain {
-        name: name(ast.name),
         requirements: flags.requirements(),
         types: hierarchy::build(&lists, ast.name.span, &mut names.types, &mut report),
-        constants: Vec::new(),
-        predicates: Vec::new(),
-        functions: Vec::new(),
-        axioms: Vec::new(),
-        actions: Vec::new(),
-        signatures: Vec::new(),
-        preferences: Vec::new(),
-        uses: Vec::new(),
+        ..Domain::new(name(ast.name))
     };
     declarations(ast, &mut domain, &mut names, &mut report);
     action::signatures(ast, &mut domain, &mut names, &mut report);

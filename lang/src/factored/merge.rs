@@ -59,17 +59,9 @@ impl<'p> Merger<'p> {
         requirements.remove(&Requirement::FactoredPrivacy);
         requirements.extend([Requirement::MultiAgent, Requirement::UnfactoredPrivacy]);
         let domain = Domain {
-            name: name(|part| &part.domain.name),
             requirements,
-            types: Vec::new(),
-            constants: Vec::new(),
-            predicates: Vec::new(),
-            functions: Vec::new(),
-            axioms: Vec::new(),
-            actions: Vec::new(),
-            signatures: Vec::new(),
-            preferences: Vec::new(),
             uses: uses(parts.iter().map(|part| &part.domain.uses)),
+            ..Domain::new(name(|part| &part.domain.name))
         };
         let name = name(|part| &part.problem.name);
         let problem = Problem {

@@ -168,7 +168,11 @@ impl Protector<'_> {
             match rules {
                 // Half of a recursion in place of it would say no more.
                 Some(rules) if !rules.some(|leaf| self.is_derived(leaf)) => {
-                    if *holds { rules } else { rules.not() }
+                    if *holds {
+                        rules
+                    } else {
+                        rules.not()
+                    }
                 }
                 _ => leaf,
             }

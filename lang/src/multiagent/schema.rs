@@ -173,7 +173,13 @@ fn conflicts(
                         &mut clashes
                     };
                     let mine = (mine.variables.clone(), mine.condition.clone());
-                    list.push(never(scope, own, mine, &literal.atom, (other, theirs, &against.atom)));
+                    list.push(never(
+                        scope,
+                        own,
+                        mine,
+                        &literal.atom,
+                        (other, theirs, &against.atom),
+                    ));
                 }
             }
         }
@@ -201,8 +207,7 @@ pub(super) fn never(
         object @ Term::Object(_) => object,
     };
     let mine_new = |variable: VariableId| own[variable.index()];
-    let conditions =
-        [condition.rename(&mine_new), theirs.condition.clone().rename(&theirs_new)];
+    let conditions = [condition.rename(&mine_new), theirs.condition.clone().rename(&theirs_new)];
     let mut parts = vec![counting_own(Condition::all(conditions).not(), owner)];
     let arguments = (0..other.scope.parameters).map(|at| theirs_new(VariableId(at))).collect();
     parts.push(Condition::Action(ActionAtom { action: other.id, arguments }, false));

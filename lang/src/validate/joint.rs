@@ -4,7 +4,7 @@ use rust_decimal::Decimal;
 
 use super::Place;
 use super::explain::{self, Part, Site};
-use super::told::Told;
+use super::told::{self, Told};
 use super::words::Words;
 use crate::diagnostic::{Diagnostic, Label, plan_misses_goal, plan_step_fails};
 use crate::execute::joint::{Acting, Clash, Concurrency, Crowd};
@@ -113,19 +113,10 @@ fn precondition(
 
 /// The lines by which VAL tells a verdict.
 pub fn lines(verdict: &Verdict) -> String {
-    match verdict {
-        Verdict::Valid(Success { value, .. }) => format!(
-            "Plan executed successfully - checking goal\nPlan valid\nFinal value: {}\n",
-            value.normalize()
-        ),
-        Verdict::Invalid(Failure { place: Place::Step(_), .. }) => {
-            "Plan failed to execute\nPlan invalid\n".to_owned()
-        }
-        Verdict::Invalid(Failure { place: Place::Goal, .. }) => {
-            "Plan executed successfully - checking goal\nGoal not satisfied\nPlan invalid\n"
-                .to_owned()
-        }
-    }
+    told::lines(match verdict {
+        Verdict::Valid(success) => Ok(success.value),
+        Verdict::Invalid(failure) => Err(failure.place),
+    })
 }
 
 /// What a person reads: the cost, or where the joint plan fails and why.

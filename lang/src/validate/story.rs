@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::told::Told;
+use super::told::{self, Told};
 use super::words::Words;
 use super::{Cause, Failure, Place, Repair, Success, Verdict};
 use crate::diagnostic::{Diagnostic, Label, plan_misses_goal, plan_step_fails};
@@ -12,19 +12,10 @@ use crate::source::Span;
 
 /// The lines by which VAL tells a verdict.
 pub fn lines(verdict: &Verdict) -> String {
-    match verdict {
-        Verdict::Valid(Success { value, .. }) => format!(
-            "Plan executed successfully - checking goal\nPlan valid\nFinal value: {}\n",
-            value.normalize()
-        ),
-        Verdict::Invalid(Failure { place: Place::Step(_), .. }) => {
-            "Plan failed to execute\nPlan invalid\n".to_owned()
-        }
-        Verdict::Invalid(Failure { place: Place::Goal, .. }) => {
-            "Plan executed successfully - checking goal\nGoal not satisfied\nPlan invalid\n"
-                .to_owned()
-        }
-    }
+    told::lines(match verdict {
+        Verdict::Valid(success) => Ok(success.value),
+        Verdict::Invalid(failure) => Err(failure.place),
+    })
 }
 
 /// What a person reads: the cost, or where the plan fails, why, since when, and what would mend it.

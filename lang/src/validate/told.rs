@@ -1,11 +1,28 @@
-//! The false parts of a condition go in; the lines that tell them come out.
+//! How a plan ended and the false parts of a condition go in; the lines that tell them come out.
 
 use std::fmt::Write;
 
+use rust_decimal::Decimal;
+
 use super::explain::MOST;
 use super::words::Words;
-use super::{Part, What};
+use super::{Part, Place, What};
 use crate::plan;
+
+/// The lines by which VAL tells that a plan is valid, with the final value, or where it fails.
+pub(super) fn lines(end: Result<Decimal, Place>) -> String {
+    match end {
+        Ok(value) => format!(
+            "Plan executed successfully - checking goal\nPlan valid\nFinal value: {}\n",
+            value.normalize()
+        ),
+        Err(Place::Step(_)) => "Plan failed to execute\nPlan invalid\n".to_owned(),
+        Err(Place::Goal) => {
+            "Plan executed successfully - checking goal\nGoal not satisfied\nPlan invalid\n"
+                .to_owned()
+        }
+    }
+}
 
 /// Tells false parts.
 pub(super) struct Told<'a> {

@@ -161,21 +161,12 @@ impl Sketch {
 
     fn model(&self) -> (Domain, Problem) {
         let domain = Domain {
-            name: name("sketch"),
-            requirements: std::collections::BTreeSet::default(),
             types: vec![Type {
                 name: name("object"),
                 parents: Vec::new(),
                 ancestors: vec![TypeId(0)],
             }],
-            constants: Vec::new(),
-            predicates: Vec::new(),
-            functions: Vec::new(),
-            axioms: Vec::new(),
-            actions: Vec::new(),
-            signatures: Vec::new(),
-            preferences: Vec::new(),
-            uses: Vec::new(),
+            ..Domain::new(name("sketch"))
         };
         let problem = Problem {
             name: name("sketch"),
