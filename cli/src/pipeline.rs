@@ -66,6 +66,22 @@ pub struct End {
     pub time: Duration,
 }
 
+impl End {
+    /// The same, of a task that may lack plans of what it stands for: that it has none proves nothing, nor that one is optimal in it.
+    #[must_use]
+    pub fn of_part(self) -> Self {
+        let status =
+            if self.status == Status::Unsolvable { Status::Incomplete } else { self.status };
+        Self { status, optimal: false, ..self }
+    }
+
+    /// That a goal which is out of reach ends the search before it begins.
+    pub fn unreachable() -> Self {
+        let statistics = Statistics::default();
+        Self { status: Status::Unsolvable, optimal: false, statistics, time: Duration::ZERO }
+    }
+}
+
 /// Grounds a problem.
 pub fn ground(domain: &Domain, problem: &Problem, watch: &Watch) -> Result<Task, Obstacle> {
     let normal = normalize::normalize(domain, problem).map_err(Obstacle::Unsupported)?;

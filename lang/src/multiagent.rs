@@ -30,6 +30,7 @@ use crate::model::{
 use crate::plan::{JointPlan, Plan, Step};
 use assembly::Assembly;
 use block::{Block, Counter, Tokens};
+use interact::Feeds;
 use schema::Schema;
 use team::{Finder, Team};
 use world::World;
@@ -112,7 +113,8 @@ pub struct Refusal {
 /// Conditions that are nested deeper than [`crate::condition::DEEPEST`].
 pub fn compile(domain: &Domain, problem: &Problem, options: &Options) -> Result<Compiled, Refusal> {
     let world = World::new(domain, problem);
-    let Some((schemas, exact)) = schema::schemas(&world, options.concurrency) else {
+    let feeds = Feeds::new(&world);
+    let Some((schemas, exact)) = schema::schemas(&world, &feeds, options.concurrency) else {
         let message = format!("conditions nested deeper than {}", crate::condition::DEEPEST);
         return Err(Refusal { message, span: domain.name.span });
     };
@@ -121,7 +123,7 @@ pub fn compile(domain: &Domain, problem: &Problem, options: &Options) -> Result<
     let finder = Finder { world: &world, schemas: &schemas, size };
     let groups = match options.means {
         Means::Block => vec![(0..schemas.len()).collect()],
-        _ => interact::groups(&finder),
+        _ => interact::groups(&finder, &feeds),
     };
     let mut assembly = Assembly::new(domain, problem);
     let blocks = options.means != Means::Shortcuts && !groups.is_empty();
@@ -139,6 +141,7 @@ pub fn compile(domain: &Domain, problem: &Problem, options: &Options) -> Result<
         for group in &groups {
             let block = Block {
                 world: &world,
+                feeds: &feeds,
                 schemas: &schemas,
                 group: group.clone(),
                 tokens,

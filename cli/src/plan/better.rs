@@ -33,19 +33,18 @@ impl Planning<'_> {
     /// Hands each plan that is better than `best` and those before to `found`; whether the last of them is proved optimal.
     pub(super) fn improve(
         &self,
-        mut best: JointPlan,
+        best: &JointPlan,
         small: Option<&Stage>,
         effort: Effort,
         found: &mut dyn FnMut(&JointPlan),
     ) -> bool {
         let objective = self.objective();
-        let mut least = self.measure(&best, objective);
-        let mut take = |plan: JointPlan, best: &mut JointPlan| {
-            let measure = self.measure(&plan, objective);
+        let mut least = self.measure(best, objective);
+        let mut take = |plan: &JointPlan| {
+            let measure = self.measure(plan, objective);
             if measure < least {
                 least = measure;
-                found(&plan);
-                *best = plan;
+                found(plan);
             }
         };
         for (strategy, stage) in
@@ -53,7 +52,7 @@ impl Planning<'_> {
         {
             let Some(work) = effort.others else { break };
             if let (Some(plan), _) = self.bounded(stage, strategy, Some(work)) {
-                take(plan, &mut best);
+                take(&plan);
             }
         }
         let means = if objective == Objective::Steps { Means::Block } else { Means::Complete };
@@ -70,7 +69,7 @@ impl Planning<'_> {
         let strategy = Strategy::AStar(Self::bound(objective));
         let (plan, solved) = self.bounded(&stage, strategy, effort.optimal);
         if let Some(plan) = plan {
-            take(plan, &mut best);
+            take(&plan);
         }
         solved && stage.compiled.complete
     }

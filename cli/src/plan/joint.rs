@@ -2,8 +2,6 @@
 //!
 //! Without a demand for optimality the small compilation, which has shortcuts only, and the complete one are searched in turns.
 
-use std::sync::{Mutex, PoisonError};
-
 use lang::execute::Executor;
 use lang::execute::joint::Concurrency;
 use lang::model::ObjectId;
@@ -11,7 +9,7 @@ use lang::multiagent::{self, Compiled, Means, Objective, Options};
 use lang::plan::{JointPlan, Plan, Step};
 use lang::validate::joint::{self as judge, Success, Verdict};
 use planner::heuristics::Kind;
-use planner::search::{Config, Status, Strategy};
+use planner::search::{Config, Strategy};
 use serde_json::json;
 
 use super::better::Effort;
@@ -162,14 +160,21 @@ impl Planning<'_> {
             Objective::Steps => (Means::Block, Strategy::AStar(Self::bound(objective))),
             _ => (Means::Complete, self.strategy),
         };
-        let stage = self.stage(self.compile(means, Some(objective))?)?;
+        let compiled = self.compile(means, Some(objective))?;
+        let complete = compiled.complete;
+        let stage = match self.ground(compiled) {
+            Err(Obstacle::Unreachable) if !complete => {
+                return Ok((None, End::unreachable().of_part()));
+            }
+            stage => stage.map_err(Failure::Obstacle)?,
+        };
         let mut plan = None;
         let end = pipeline::search(&stage.ready, &self.config(strategy), self.watch, |found| {
             plan = Some(stage.compiled.decode(&found));
         });
-        let optimal = end.optimal && stage.compiled.complete;
         // Merging changes neither the actions nor what they cost.
-        Ok((plan.map(|plan| self.merged(&plan)), End { optimal, ..end }))
+        let plan = plan.map(|plan| self.merged(&plan));
+        Ok((plan, if complete { end } else { end.of_part() }))
     }
 
     /// What bounds the distance from below when plans are to be optimal: that a block has begun is all that other heuristics see of joint steps.
@@ -198,7 +203,7 @@ impl Planning<'_> {
         if anytime {
             take(&plan);
         }
-        let optimal = self.improve(plan, small.as_ref(), effort, &mut |better| {
+        let optimal = self.improve(&plan, small.as_ref(), effort, &mut |better| {
             if anytime {
                 take(better);
             }
@@ -216,34 +221,33 @@ impl Planning<'_> {
             Err(Failure::Obstacle(Obstacle::Unreachable)) if !whole => None,
             Err(failure) => return Err(failure),
         };
-        let mut complete = None;
-        if !whole {
-            complete = Some(self.compile(Means::Complete, None)?);
-        }
-        let sure = complete.as_ref().is_none_or(|compiled| compiled.complete);
-        let complete = Mutex::new(complete);
         let small = small.as_ref();
-        let search = |way: &Way, turn: &mut Turn<'_>| {
-            if let (SMALL, Some(stage)) = (way.task, small) {
-                return self.turn(stage, way.strategy, turn);
-            }
-            let compiled = complete.lock().unwrap_or_else(PoisonError::into_inner).take();
-            match self.ground(compiled.expect("only one way searches the complete task")) {
-                Ok(stage) => self.turn(&stage, way.strategy, turn),
-                Err(obstacle) => turns::Outcome::Blocked(obstacle),
-            }
+        let search = |way: &Way, turn: &mut Turn<'_>| match (way.task, small) {
+            (SMALL, Some(stage)) => Ok(self.turn(stage, way.strategy, turn)),
+            _ => self.complete(way.strategy, turn),
         };
         let ways = self.ways(small.is_some(), whole);
         let outcome = turns::take(&ways, search, |way| whole || way.task == COMPLETE);
-        match outcome.expect("there is a way, and it ends") {
-            turns::Outcome::Ended(mut end, plan) => {
-                if end.status == Status::Unsolvable && !sure {
-                    end.status = Status::Incomplete;
-                }
-                Ok((plan.map(|plan| self.merged(&plan)), end))
+        let (end, plan) = outcome.expect("there is a way, and it ends")?;
+        Ok((plan.map(|plan| self.merged(&plan)), end))
+    }
+
+    /// Searches the complete compilation, in turns with others.
+    fn complete(
+        &self,
+        strategy: Strategy,
+        turn: &mut Turn<'_>,
+    ) -> Result<(End, Option<JointPlan>), Failure> {
+        let compiled = self.compile(Means::Complete, None)?;
+        let complete = compiled.complete;
+        let stage = match self.ground(compiled) {
+            Err(Obstacle::Unreachable) if !complete => {
+                return Ok((End::unreachable().of_part(), None));
             }
-            turns::Outcome::Blocked(obstacle) => Err(Failure::Obstacle(obstacle)),
-        }
+            stage => stage.map_err(Failure::Obstacle)?,
+        };
+        let (end, plan) = self.turn(&stage, strategy, turn);
+        Ok((if complete { end } else { end.of_part() }, plan))
     }
 
     /// What takes turns. What the command line asks for goes alone.
@@ -273,13 +277,13 @@ impl Planning<'_> {
         stage: &Stage,
         strategy: Strategy,
         turn: &mut Turn<'_>,
-    ) -> turns::Outcome<JointPlan> {
+    ) -> (End, Option<JointPlan>) {
         let mut plan = None;
         let found = |plain: Plan| plan = Some(stage.compiled.decode(&plain));
         let (config, work) = (self.config(strategy), turn.work);
         let more = || (turn.next)();
         let end = pipeline::search_in_turns(&stage.ready, &config, self.watch, found, work, more);
-        turns::Outcome::Ended(end, plan)
+        (end, plan)
     }
 
     /// The same plan in as few joint steps as merging gives.

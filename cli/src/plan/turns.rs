@@ -9,6 +9,7 @@ use std::thread;
 
 use planner::search::{Status, Strategy};
 
+use super::joint::Failure;
 use crate::pipeline::{End, Obstacle};
 
 /// A way to search.
@@ -23,20 +24,15 @@ pub(super) struct Way {
     pub(super) share: u64,
 }
 
-/// How a way ended.
-pub(super) enum Outcome<P> {
-    /// It came to an end, with a plan if it found one.
-    Ended(End, Option<P>),
-    /// There was nothing to search.
-    Blocked(Obstacle),
-}
+/// How a way ended: with a plan if it found one, or because there was nothing to search.
+pub(super) type Outcome<P> = Result<(End, Option<P>), Failure>;
 
 /// What happens in a thread.
 enum Event<P> {
     /// A turn is over.
     Spent,
     /// The way is over.
-    Over(usize, Outcome<P>),
+    Over(Outcome<P>),
     /// The thread has failed, which is told when it is joined.
     Failed,
 }
@@ -77,18 +73,15 @@ pub(super) fn take<P: Send>(
     thread::scope(|scope| {
         let (events, happened) = mpsc::channel();
         let mut threads = Vec::new();
-        let mut grants = Vec::new();
-        for (at, way) in ways.iter().enumerate() {
+        let start = |way| {
             let (grant, granted) = mpsc::channel::<u64>();
             let events = events.clone();
-            let work = move || run(at, way, search, &granted, &events);
+            let work = move || run(way, search, &granted, &events);
             let builder = thread::Builder::new().name("search".to_owned()).stack_size(STACK);
             threads.push(builder.spawn_scoped(scope, work).expect("a thread can be started"));
-            grants.push(Some(grant));
-        }
-        drop(events);
-        let found = lead(ways, &mut grants, &happened, conclusive);
-        grants.clear();
+            grant
+        };
+        let found = lead(ways, start, &happened, conclusive);
         for thread in threads {
             if let Err(fault) = thread.join() {
                 panic::resume_unwind(fault);
@@ -100,7 +93,6 @@ pub(super) fn take<P: Send>(
 
 /// One thread: waits for its first turn, then searches.
 fn run<P>(
-    at: usize,
     way: &Way,
     search: impl Fn(&Way, &mut Turn<'_>) -> Outcome<P>,
     granted: &Receiver<u64>,
@@ -114,46 +106,59 @@ fn run<P>(
         granted.recv().ok()
     };
     let outcome = search(way, &mut Turn { work, next: &mut next });
-    let _ = events.send(Event::Over(at, outcome));
+    let _ = events.send(Event::Over(outcome));
 }
 
-/// Gives turns.
-fn lead<P>(
-    ways: &[Way],
-    grants: &mut [Option<Sender<u64>>],
+/// How far a way is.
+enum State {
+    /// It has had no turn.
+    Waiting,
+    /// This gives it a turn.
+    Going(Sender<u64>),
+    /// It has no more turns.
+    Over,
+}
+
+/// Gives turns; `start` makes the thread of a way that has its first one. All threads come to their ends when this returns.
+fn lead<'w, P>(
+    ways: &'w [Way],
+    mut start: impl FnMut(&'w Way) -> Sender<u64>,
     happened: &Receiver<Event<P>>,
     conclusive: impl Fn(&Way) -> bool,
 ) -> Option<Outcome<P>> {
+    let mut states: Vec<State> = ways.iter().map(|_| State::Waiting).collect();
     let mut last = None;
     let mut work = FIRST;
-    while grants.iter().any(Option::is_some) {
+    while states.iter().any(|state| !matches!(state, State::Over)) {
         for (at, way) in ways.iter().enumerate() {
-            let Some(grant) = &grants[at] else { continue };
+            if matches!(states[at], State::Waiting) {
+                states[at] = State::Going(start(way));
+            }
+            let State::Going(grant) = &states[at] else { continue };
             let head_start = if work == FIRST { way.head_start } else { 0 };
             let share = work.saturating_mul(way.share).saturating_add(head_start);
-            if grant.send(share).is_err() {
-                grants[at] = None;
-                continue;
-            }
-            match happened.recv() {
-                Ok(Event::Spent) => {}
-                Ok(Event::Over(at, outcome)) => {
+            // One that has ended has said so, and is over.
+            grant.send(share).expect("it waits for its turn");
+            match happened.recv().expect("one sender is kept here") {
+                Event::Spent => {}
+                Event::Over(outcome) => {
                     let proved = match &outcome {
-                        Outcome::Ended(end, None) => end.status == Status::Unsolvable,
-                        Outcome::Ended(..) => return Some(outcome),
-                        Outcome::Blocked(obstacle) => matches!(obstacle, Obstacle::Unreachable),
+                        Ok((_, Some(_))) => return Some(outcome),
+                        Ok((end, None)) => end.status == Status::Unsolvable,
+                        Err(failure) => matches!(failure, Failure::Obstacle(Obstacle::Unreachable)),
                     };
-                    if !proved || conclusive(&ways[at]) {
+                    if !proved || conclusive(way) {
                         return Some(outcome);
                     }
-                    for (other, grant) in grants.iter_mut().enumerate() {
-                        if ways[other].task == ways[at].task {
-                            *grant = None;
+                    for (other, state) in ways.iter().zip(&mut states) {
+                        if other.task == way.task {
+                            *state = State::Over;
                         }
                     }
                     last = Some(outcome);
                 }
-                Ok(Event::Failed) | Err(_) => return last,
+                // It is told when the thread is joined.
+                Event::Failed => return last,
             }
         }
         work = work.saturating_mul(2);

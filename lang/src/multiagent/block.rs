@@ -55,6 +55,7 @@ type Pattern = (usize, Vec<usize>);
 /// Writes the block of one group.
 pub(super) struct Block<'a> {
     pub(super) world: &'a World<'a>,
+    pub(super) feeds: &'a Feeds,
     pub(super) schemas: &'a [Schema],
     pub(super) group: Vec<usize>,
     pub(super) tokens: &'a Tokens,
@@ -116,12 +117,11 @@ impl Block<'_> {
             assembly.predicate(&format!("chosen-{}", schema.name), parameters)
         });
         let chosen = chosen.collect();
-        let feeds = Feeds::new(self.world);
         let fires = (0..self.group.len())
             .map(|at| {
                 let effects = &self.schema(at).effects;
                 let number = |(number, effect): (usize, &Effect)| {
-                    self.early(at, effect, &feeds).then(|| {
+                    self.early(at, effect).then(|| {
                         let schema = self.schema(at);
                         let mut parameters = schema.parameters().to_vec();
                         let variables = effect.variables.iter();
@@ -147,7 +147,7 @@ impl Block<'_> {
     }
 
     /// Whether an effect must be decided before the effects of others happen: it asks about the joint action, or about what they may change.
-    fn early(&self, at: usize, effect: &Effect, feeds: &Feeds) -> bool {
+    fn early(&self, at: usize, effect: &Effect) -> bool {
         let own = self.schema(at);
         effect.condition.some(|leaf| match leaf {
             Condition::Action(..) => true,
@@ -155,7 +155,7 @@ impl Block<'_> {
                 let other = &self.schemas[other];
                 let literals = other.effects.iter().flat_map(|effect| &effect.literals);
                 literals.into_iter().any(|literal: &Literal| {
-                    feeds.touches(self.world, (other, literal), (own, atom))
+                    self.feeds.touches(self.world, (other, literal), (own, atom))
                 })
             }),
             _ => false,

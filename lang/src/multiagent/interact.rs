@@ -14,17 +14,16 @@ use crate::condition::Condition;
 use crate::model::{Atom, Literal, NodeKind, PredicateId, Term, VariableId};
 
 /// Which schemas must be able to act in one joint step, by their places.
-pub(super) fn groups(finder: &Finder<'_>) -> Vec<Vec<usize>> {
+pub(super) fn groups(finder: &Finder<'_>, feeds: &Feeds) -> Vec<Vec<usize>> {
     let schemas = finder.schemas;
     let mut graph = DiGraph::<usize, ()>::new();
     let nodes: Vec<NodeIndex> = (0..schemas.len()).map(|at| graph.add_node(at)).collect();
-    let feeds = Feeds::new(finder.world);
     for one in 0..schemas.len() {
         for other in 0..schemas.len() {
             if names(&schemas[one], &schemas[other]) {
                 graph.update_edge(nodes[one], nodes[other], ());
                 graph.update_edge(nodes[other], nodes[one], ());
-            } else if disturbs(finder, &feeds, one, other) {
+            } else if disturbs(finder, feeds, one, other) {
                 graph.update_edge(nodes[one], nodes[other], ());
             }
         }

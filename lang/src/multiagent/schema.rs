@@ -117,18 +117,21 @@ fn others(condition: Condition, actions: &[Action]) -> Condition {
 
 /// The schemas of `world`'s domain. Nothing if a condition is nested too deep. Also whether they say exactly what the semantics does,
 /// and not more: with [`Concurrency::Safe`], what recursive derived predicates depend on must not be changed at all.
-pub(super) fn schemas(world: &World<'_>, concurrency: Concurrency) -> Option<(Vec<Schema>, bool)> {
+pub(super) fn schemas(
+    world: &World<'_>,
+    feeds: &Feeds,
+    concurrency: Concurrency,
+) -> Option<(Vec<Schema>, bool)> {
     let actions = &world.domain.actions;
     let mut schemas = (0..actions.len() as u32)
         .map(|at| Schema::new(ActionId(at), actions))
         .collect::<Option<Vec<_>>>()?;
     let plain = schemas.clone();
-    let feeds = Feeds::new(world);
     let mut exact = true;
     for (schema, own) in schemas.iter_mut().zip(&plain) {
         let mut added = Vec::new();
         if concurrency == Concurrency::Safe {
-            let (schemas, feeds, own) = (&plain, &feeds, own.clone());
+            let (schemas, own) = (&plain, own.clone());
             let mut protector = Protector { world, schemas, feeds, own, exact: true };
             added = protector.demands();
             exact &= protector.exact;
