@@ -165,7 +165,7 @@ impl Block<'_> {
     /// Finds the patterns that parts of preconditions are.
     fn patterns(&self, stage: &mut Stage, assembly: &mut Assembly) {
         for at in 0..self.group.len() {
-            for part in self.schema(at).precondition.conjuncts() {
+            for part in self.schema(at).stated() {
                 let Some((pattern, _)) = self.pattern(at, part) else { continue };
                 if stage.patterns.iter().any(|(known, _)| *known == pattern) {
                     continue;
@@ -228,8 +228,7 @@ impl Block<'_> {
         let late = |part: &Condition| {
             self.is_late(at, part) && self.asked(at, part.clone(), stage) != Condition::TRUE
         };
-        stage.fires[at].iter().any(Option::is_some)
-            || self.schema(at).precondition.conjuncts().iter().any(late)
+        stage.fires[at].iter().any(Option::is_some) || self.schema(at).stated().any(late)
     }
 
     /// A condition with chosen instances in place of action atoms; in a precondition, a negative one does not count the own.
@@ -413,7 +412,7 @@ impl Block<'_> {
         if self.ordered {
             self.in_order(at, &mut draft, false, true);
         }
-        for part in self.schema(at).precondition.conjuncts() {
+        for part in self.schema(at).stated() {
             if let Some((pattern, terms)) = self.pattern(at, part) {
                 let (_, [used, forbidden]) = stage
                     .patterns
@@ -514,7 +513,7 @@ impl Block<'_> {
         draft.needs(self.token(at, true), true);
         draft.needs(self.chosen(at, stage), true);
         self.in_order(at, &mut draft, true, false);
-        for part in self.schema(at).precondition.conjuncts() {
+        for part in self.schema(at).stated() {
             if self.is_late(at, part) {
                 draft.precondition.push(self.asked(at, part.clone(), stage));
             }
@@ -547,7 +546,7 @@ impl Block<'_> {
         for (used, _) in self.uses(at, stage) {
             draft.makes(used, false);
         }
-        for part in self.schema(at).precondition.conjuncts() {
+        for part in self.schema(at).stated() {
             if let Some((pattern, terms)) = self.pattern(at, part) {
                 let (_, [_, forbidden]) = stage
                     .patterns

@@ -48,7 +48,7 @@ fn names(one: &Schema, other: &Schema) -> bool {
         Condition::Action(atom, holds) => atom.action == other.id && wanted(*holds),
         _ => false,
     };
-    one.precondition.some(|leaf| named(leaf, &|holds| holds))
+    one.stated().any(|part| part.some(|leaf| named(leaf, &|holds| holds)))
         || one.effects.iter().any(|effect| effect.condition.some(|leaf| named(leaf, &|_| true)))
 }
 

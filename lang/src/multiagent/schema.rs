@@ -21,6 +21,8 @@ pub(super) struct Schema {
     /// Whether the first parameter is the agent.
     pub(super) agent: bool,
     pub(super) precondition: Condition,
+    /// What keeps the precondition true while the others have their effects, where parts must not interfere: parts of the precondition too.
+    pub(super) protections: Vec<Condition>,
     /// That no effect that depends on a condition clashes with one of another part: parts of the precondition, which blocks see to in their own way.
     pub(super) clashes: Vec<Condition>,
     pub(super) effects: Vec<Effect>,
@@ -59,15 +61,21 @@ impl Schema {
             scope: action.scope.clone(),
             agent: action.agent,
             precondition: if action.agent { others(precondition, actions) } else { precondition },
+            protections: Vec::new(),
             clashes: Vec::new(),
             effects: effects.collect::<Option<_>>()?,
             increases: action.increases.clone(),
         })
     }
 
+    /// All that must hold before but that effects do not clash.
+    pub(super) fn stated(&self) -> impl Iterator<Item = &Condition> {
+        self.precondition.conjuncts().iter().chain(&self.protections)
+    }
+
     /// All that must hold before.
     pub(super) fn demands(&self) -> impl Iterator<Item = &Condition> {
-        self.precondition.conjuncts().iter().chain(&self.clashes)
+        self.stated().chain(&self.clashes)
     }
 
     /// The parameters.
@@ -129,14 +137,14 @@ pub(super) fn schemas(
     let plain = schemas.clone();
     let mut exact = true;
     for (schema, own) in schemas.iter_mut().zip(&plain) {
-        let mut added = Vec::new();
         if concurrency == Concurrency::Safe {
             let (schemas, own) = (&plain, own.clone());
             let mut protector = Protector { world, schemas, feeds, own, exact: true };
-            added = protector.demands();
+            schema.protections = protector.demands();
             exact &= protector.exact;
             schema.scope = protector.own.scope;
         }
+        let mut added = Vec::new();
         for other in &plain {
             let (plain, clashes) = conflicts(world, own, other, &mut schema.scope);
             added.extend(plain);
@@ -147,8 +155,10 @@ pub(super) fn schemas(
         let simplifier = Simplifier { world, variables: &schema.scope.variables, distinct: &[] };
         let before = std::mem::replace(&mut schema.precondition, Condition::TRUE);
         schema.precondition = simplifier.simplify(before);
-        let clashes = std::mem::take(&mut schema.clashes);
-        schema.clashes = clashes.into_iter().map(|clash| simplifier.simplify(clash)).collect();
+        for list in [&mut schema.protections, &mut schema.clashes] {
+            let parts = std::mem::take(list).into_iter().map(|part| simplifier.simplify(part));
+            *list = Condition::all(parts).conjuncts().to_vec();
+        }
     }
     Some((schemas, exact))
 }

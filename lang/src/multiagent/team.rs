@@ -268,10 +268,13 @@ impl Finder<'_> {
         let mut choices = Vec::new();
         let mut missing = Vec::new();
         for (of, member) in team.members.iter().enumerate() {
-            for part in self.schemas[member.schema].demands() {
+            let schema = &self.schemas[member.schema];
+            for (at, part) in schema.demands().enumerate() {
                 let mut scope = self.scope(team);
                 let value = self.value(team, of, part, &mut scope);
-                let atoms = positive(part);
+                // Nobody joins to make good what others destroy: that is left to blocks.
+                let asks = at < schema.precondition.conjuncts().len();
+                let atoms = if asks { positive(part) } else { Vec::new() };
                 if value == Condition::FALSE {
                     if atoms.is_empty() {
                         return Wants::Impossible;
