@@ -321,6 +321,9 @@ pub struct Compile {
     /// How many actions a joint step has at most.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub joint_size: Option<u32>,
+    /// Say what these programs refuse or misread in what was written.
+    #[arg(long = "for", value_name = "TOOL", value_delimiter = ',', value_parser = tools())]
+    pub tools: Vec<Tool>,
     /// How diagnostics look.
     #[arg(long, value_name = "FORMAT", default_value = "full")]
     pub output_format: OutputFormat,

@@ -5,8 +5,11 @@ mod classical;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use lang::diagnostic::Diagnostics;
 use lang::factored;
 use lang::model::Requirement;
+use lang::portability;
+use lang::source::Sources;
 use lang::write::{self, Style};
 
 use crate::args::{Compile, Form};
@@ -98,13 +101,26 @@ fn save(
             for path in paths {
                 terminal.line(path.display());
             }
-            Exit::Done
+            portable(arguments, texts, terminal)
         }
         Err(complaint) => {
             terminal.say(complaint);
             Exit::Failed
         }
     }
+}
+
+/// Says what the programs that are asked about refuse or misread.
+fn portable(arguments: &Compile, texts: &[(String, String)], terminal: &mut Terminal) -> Exit {
+    let mut sources = Sources::default();
+    let mut found = Diagnostics::default();
+    for (name, text) in texts.iter().filter(|(name, _)| name.ends_with(".pddl")) {
+        let id = sources.add(name.clone(), text.clone());
+        found.append(portability::check(&sources, id, &arguments.tools));
+    }
+    let format = arguments.output_format;
+    terminal.talk(input::rendered(&sources, &found, format, terminal.colour));
+    if found.list.is_empty() { Exit::Done } else { Exit::Findings }
 }
 
 fn write_all(

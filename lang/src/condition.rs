@@ -281,6 +281,8 @@ pub fn depth(formula: &Formula) -> usize {
 
 /// That two terms are the same, or are not; decided where it can be.
 pub fn equal(left: Term, right: Term, holds: bool) -> Condition {
+    // In one order, so that the same is seen to be the same.
+    let (left, right) = if right < left { (right, left) } else { (left, right) };
     let known = match (left, right) {
         _ if left == right => Some(true),
         (Term::Object(_), Term::Object(_)) => Some(false),
