@@ -187,6 +187,18 @@ impl Condition {
         }
     }
 
+    /// Lists what quantifiers bind, the outer ones first.
+    pub fn bound(&self, list: &mut Vec<VariableId>) {
+        match self {
+            Self::All(parts) | Self::Any(parts) => parts.iter().for_each(|part| part.bound(list)),
+            Self::Forall(variables, body) | Self::Exists(variables, body) => {
+                list.extend(variables);
+                body.bound(list);
+            }
+            _ => {}
+        }
+    }
+
     /// Whether some leaf is as asked.
     pub fn some(&self, mut wanted: impl FnMut(&Self) -> bool) -> bool {
         let mut found = false;

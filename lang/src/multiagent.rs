@@ -119,8 +119,8 @@ pub fn compile(domain: &Domain, problem: &Problem, options: &Options) -> Result<
         return Err(Refusal { message, span: domain.name.span });
     };
     let agents = agents(&world, &schemas);
-    let size = options.size.unwrap_or(usize::MAX).min(agents.len() + 1);
-    let finder = Finder { world: &world, schemas: &schemas, size };
+    let size = options.size.unwrap_or(usize::MAX);
+    let finder = Finder { world: &world, schemas: &schemas, size, agents: agents.len() };
     let groups = match options.means {
         Means::Block => vec![(0..schemas.len()).collect()],
         _ => interact::groups(&finder, &feeds),

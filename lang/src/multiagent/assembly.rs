@@ -136,7 +136,8 @@ impl Assembly {
         let free = |name: &str| actions.iter().all(|one| !one.name.text.eq_ignore_ascii_case(name));
         let name = self.name(unused(&name, free));
         let mut bound = HashSet::new();
-        let precondition = freshen(Condition::all(precondition), &mut scope, &mut bound);
+        let precondition = Condition::all(once(&Condition::all(precondition), &scope));
+        let precondition = freshen(precondition, &mut scope, &mut bound);
         let mut written: BTreeSet<Key> = BTreeSet::new();
         let mut list = Vec::new();
         for (variables, condition, literals) in effects {
@@ -195,6 +196,26 @@ fn unused(name: &str, free: impl Fn(&str) -> bool) -> String {
         .chain(numbered)
         .find(|name| free(name))
         .expect("there are more numbers than names")
+}
+
+/// The parts of a conjunction without those that say the same in other variables.
+fn once(condition: &Condition, scope: &Scope) -> Vec<Condition> {
+    let mut seen = BTreeSet::new();
+    let parts = condition.conjuncts().iter();
+    parts.filter(|part| seen.insert(meaning(part, scope))).cloned().collect()
+}
+
+/// A text that is the same for conditions that differ only in which variables they bind.
+fn meaning(condition: &Condition, scope: &Scope) -> String {
+    let mut bound: Vec<VariableId> = Vec::new();
+    condition.bound(&mut bound);
+    let types: Vec<&[TypeId]> =
+        bound.iter().map(|id| scope.variables[id.index()].types.as_slice()).collect();
+    let new = |variable: VariableId| {
+        let place = bound.iter().position(|&one| one == variable);
+        Term::Variable(place.map_or(variable, |at| VariableId(u32::MAX - at as u32)))
+    };
+    format!("{:?} {types:?}", condition.clone().rename(&new))
 }
 
 /// The same condition, in which no quantifier binds a variable that another one has bound before.

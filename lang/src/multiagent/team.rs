@@ -211,6 +211,8 @@ pub(super) struct Finder<'a> {
     pub(super) schemas: &'a [Schema],
     /// How many parts a team has at most.
     pub(super) size: usize,
+    /// How many agents there are.
+    pub(super) agents: usize,
 }
 
 impl Finder<'_> {
@@ -239,7 +241,7 @@ impl Finder<'_> {
         let mut looked = 0;
         while let Some(team) = open.pop() {
             looked += 1;
-            if looked > MOST || team.members.len() > self.size || !seen.insert(team.key()) {
+            if looked > MOST || !self.fits(&team) || !seen.insert(team.key()) {
                 continue;
             }
             match self.wants(&team) {
@@ -261,6 +263,11 @@ impl Finder<'_> {
                 }
             }
         }
+    }
+
+    /// Whether there may be so many parts, and are so many agents.
+    fn fits(&self, team: &Team) -> bool {
+        team.members.len() <= self.size && team.agents(self.schemas).len() <= self.agents
     }
 
     /// What a team lacks.
