@@ -114,7 +114,9 @@ fn save(
 fn portable(arguments: &Compile, texts: &[(String, String)], terminal: &mut Terminal) -> Exit {
     let mut sources = Sources::default();
     let mut found = Diagnostics::default();
-    for (name, text) in texts.iter().filter(|(name, _)| name.ends_with(".pddl")) {
+    for (name, text) in
+        texts.iter().filter(|(name, _)| Path::new(name).extension() == Some("pddl".as_ref()))
+    {
         let id = sources.add(name.clone(), text.clone());
         found.append(portability::check(&sources, id, &arguments.tools));
     }
