@@ -120,7 +120,7 @@ pub fn search(ready: &Ready, config: &Config, watch: &Watch, found: impl FnMut(P
     search_in_turns(ready, config, watch, found, u64::MAX, || None)
 }
 
-/// As [`search`], but after the work `budget` it asks `more` how much it may do on top, and gives up without an answer.
+/// As [`search()`], but after the work `budget` it asks `more` how much it may do on top, and gives up without an answer.
 pub fn search_in_turns(
     ready: &Ready,
     config: &Config,
