@@ -1,5 +1,7 @@
 //! The command line as data.
 
+pub mod excuse;
+
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -57,6 +59,8 @@ pub enum Verb {
     Compile(Compile),
     /// Write out the ground task.
     Ground(Ground),
+    /// Say why there is no plan, and what would have to be different.
+    Excuse(excuse::Excuse),
     /// Measure this planner and a peer on the same tasks.
     Bench(Bench),
     /// Explain a diagnostic code.

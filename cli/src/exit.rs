@@ -20,9 +20,11 @@ pub enum Exit {
     PlanTime,
     /// `plan`: the goal cannot be reached even when deletes are ignored.
     Unreachable,
-    /// `plan`: every reachable state was looked at; there is no plan.
+    /// `excuse`: the problem has a plan as it is.
+    Unneeded,
+    /// `plan`: every reachable state was looked at; there is no plan. `excuse`: there is no excuse.
     Exhausted,
-    /// `plan`: the search ended without a plan and without a proof that there is none.
+    /// `plan`: the search ended without a plan and without a proof that there is none. `excuse`: the same of excuses.
     Incomplete,
     /// `plan`: out of memory while grounding.
     GroundMemory,
@@ -44,13 +46,14 @@ pub enum Exit {
 
 impl Exit {
     /// Every way to end, with its code and its meaning, in the order of the codes.
-    pub const TABLE: [(Self, u8, &str); 16] = [
+    pub const TABLE: [(Self, u8, &str); 17] = [
         (Self::Done, 0, "a plan was found; for other verbs: done, nothing wrong"),
         (Self::Findings, 1, "other verbs: something is wrong with what was checked"),
         (Self::PlanMemory, 1, "a plan was found, then memory ran out"),
         (Self::Failed, 2, "other verbs: could not run"),
         (Self::PlanTime, 2, "a plan was found, then time ran out"),
         (Self::Unreachable, 10, "no plan: the goal is out of reach even without deletes"),
+        (Self::Unneeded, 10, "excuse: the problem has a plan as it is"),
         (Self::Exhausted, 11, "no plan: all reachable states were looked at"),
         (Self::Incomplete, 12, "no plan found, and no proof that there is none"),
         (Self::GroundMemory, 20, "out of memory while grounding"),
@@ -73,7 +76,7 @@ impl Exit {
         let mut text = String::from("Exit codes:\n");
         for (exit, code, meaning) in Self::TABLE {
             let meaning = meaning.split(';').next().unwrap_or(meaning);
-            if !matches!(exit, Self::Findings | Self::Failed) {
+            if !matches!(exit, Self::Findings | Self::Failed | Self::Unneeded) {
                 let _ = writeln!(text, "  {code:<2}  {meaning}");
             }
         }

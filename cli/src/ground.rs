@@ -4,13 +4,14 @@ use std::io::Write;
 
 use planner::limits::Stop;
 use planner::sas;
+use planner::solve::Obstacle;
 
 use crate::args::{Ground, GroundFormat};
 use crate::exit::Exit;
 use crate::files;
 use crate::input::{self, Reader};
 use crate::limits::{Allowance, Watch, peak_memory};
-use crate::pipeline::{self, Obstacle};
+use crate::pipeline;
 use crate::terminal::Terminal;
 
 /// Grounds and writes.

@@ -31,6 +31,7 @@ pub mod plan;
 pub mod validate;
 pub mod compile;
 pub mod ground;
+pub mod excuse;
 pub mod bench;
 pub mod explain;
 pub mod lsp;
@@ -87,6 +88,7 @@ fn dispatch(arguments: &[OsString], terminal: &mut Terminal) -> Exit {
         Verb::Validate(arguments) => validate::run(&arguments, terminal),
         Verb::Compile(arguments) => compile::run(&arguments, terminal),
         Verb::Ground(arguments) => ground::run(&arguments, terminal),
+        Verb::Excuse(arguments) => excuse::run(&arguments, terminal),
         Verb::Explain(arguments) => explain::run(&arguments, terminal),
         Verb::Bench(arguments) => bench::run(&arguments, terminal),
         Verb::Lsp(arguments) => lsp::run(&arguments, terminal),

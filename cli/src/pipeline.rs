@@ -6,14 +6,12 @@ use std::time::Duration;
 
 use lang::model::{Domain, Problem};
 use lang::plan::Plan;
-use planner::encode::{self, Decoder, Encoded};
-use planner::ground::{self, Outcome};
+use planner::encode::{Decoder, Encoded};
 use planner::grounded::Grounded;
-use planner::invariants;
-use planner::limits::Stop;
-use planner::normalize::{self, Unsupported};
+use planner::normalize;
 use planner::sas::write::Names;
 use planner::search::{self, Config, Statistics, Status};
+use planner::solve::{self, Obstacle, Prepared};
 use planner::task::OperatorId;
 
 use crate::limits::{Watch, cpu_time};
@@ -40,17 +38,6 @@ pub struct Task {
 pub struct Ready {
     task: planner::task::Task,
     decoder: Decoder,
-}
-
-/// Why there is no ground task.
-#[derive(Debug)]
-pub enum Obstacle {
-    /// The planner does not plan this.
-    Unsupported(Unsupported),
-    /// The goal cannot be reached even when deletes are ignored.
-    Unreachable,
-    /// It was told to stop, while doing this.
-    Stopped(Stop, &'static str),
 }
 
 /// How a search ended.
@@ -84,19 +71,7 @@ impl End {
 
 /// Grounds a problem.
 pub fn ground(domain: &Domain, problem: &Problem, watch: &Watch) -> Result<Task, Obstacle> {
-    let normal = normalize::normalize(domain, problem).map_err(Obstacle::Unsupported)?;
-    let limits = &watch.limits;
-    let grounded = match ground::ground(domain, problem, &normal, limits) {
-        Ok(Outcome::Grounded(grounded)) => *grounded,
-        Ok(Outcome::Unsolvable) => return Err(Obstacle::Unreachable),
-        Err(interrupted) => return Err(Obstacle::Stopped(interrupted.stop, interrupted.phase)),
-    };
-    let groups = invariants::groups(domain, problem, &normal, &grounded, limits);
-    let encoded = encode::encode(&grounded, &groups, limits);
-    let encoded = encoded.map_err(|stop| Obstacle::Stopped(stop, "making variables"))?;
-    if encoded.unsolvable {
-        return Err(Obstacle::Unreachable);
-    }
+    let Prepared { normal, grounded, encoded } = solve::prepare(domain, problem, &watch.limits)?;
     Ok(Task { encoded, grounded, names: Names::new(domain, problem, &normal) })
 }
 

@@ -13,13 +13,14 @@ use lang::validate::{self, Success, Verdict};
 use planner::heuristics::Kind;
 use planner::limits::Stop;
 use planner::search::{self, Config, Status, Strategy};
+use planner::solve::Obstacle;
 
 use crate::args;
 use crate::exit::Exit;
 use crate::files::Complaint;
 use crate::input::{self, Input, Reader};
 use crate::limits::{Allowance, Watch, cpu_time, peak_memory};
-use crate::pipeline::{self, End, Obstacle};
+use crate::pipeline::{self, End};
 use crate::progress::Progress;
 use crate::terminal::Terminal;
 use desk::Desk;

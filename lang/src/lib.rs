@@ -18,6 +18,7 @@ pub mod diagnostic;
 pub mod lexer;
 pub mod tree;
 pub mod annotation;
+pub mod group;
 pub mod ast;
 pub mod syntax;
 mod near;
@@ -44,6 +45,7 @@ pub mod ide;
 
 pub use annotation::annotations;
 pub use diagnostic::explain;
+pub use near::nearest;
 pub use reader::{
     Kind, detect, index_domain, index_problem, parse_domain, parse_problem, read_domain,
     read_problem, refusals,

@@ -11,7 +11,7 @@ mod reach;
 mod emit;
 mod simplify;
 
-use lang::model::{Domain, Problem};
+use lang::model::{Domain, Fact, Problem};
 
 use crate::grounded::Grounded;
 use crate::limits::{Limits, Stop};
@@ -46,26 +46,64 @@ pub fn ground(
     normal: &Normal,
     limits: &Limits,
 ) -> Result<Outcome, Interrupted> {
+    let Some((mut grounded, exact)) = instantiate(domain, problem, normal, &[], limits)? else {
+        return Ok(Outcome::Unsolvable);
+    };
+    if !simplify::simplify(&mut grounded, exact) {
+        return Ok(Outcome::Unsolvable);
+    }
+    Ok(Outcome::Grounded(Box::new(grounded)))
+}
+
+/// Grounds `normal` as if each fact of `open` might hold initially or not: nothing that depends on them is left out. They stand among the facts of the
+/// result, which says of each fact whether it does hold initially. Facts that always or never hold are not taken out.
+///
+/// `None` where the goal is out of reach even so.
+///
+/// # Errors
+/// Where it was, if the limits ended it.
+pub fn ground_open(
+    domain: &Domain,
+    problem: &Problem,
+    normal: &Normal,
+    open: &[Fact],
+    limits: &Limits,
+) -> Result<Option<Grounded>, Interrupted> {
+    Ok(instantiate(domain, problem, normal, open, limits)?.map(|(grounded, _)| grounded))
+}
+
+/// The ground problem before anything is taken out, and whether everything in it is known to be reachable when deletes are ignored.
+fn instantiate(
+    domain: &Domain,
+    problem: &Problem,
+    normal: &Normal,
+    open: &[Fact],
+    limits: &Limits,
+) -> Result<Option<(Grounded, bool)>, Interrupted> {
     let interrupted = |phase| move |stop| Interrupted { stop, phase };
     let world = world::World::new(domain, problem);
     let mut relations: Vec<Relation> =
         normal.predicates.iter().map(|predicate| Relation::new(predicate.arity)).collect();
     let mut row = Vec::new();
-    for fact in &problem.init {
-        // What is said initially of a derived predicate is for its axioms to decide.
-        if normal.predicates[fact.predicate.index()].kind != Kind::Derived {
-            row.clear();
-            row.extend(fact.arguments.iter().map(|object| object.0));
-            relations[fact.predicate.index()].insert(&row);
+    let mut insert = |facts: &[Fact], relations: &mut Vec<Relation>| {
+        for fact in facts {
+            // What is said initially of a derived predicate is for its axioms to decide.
+            if normal.predicates[fact.predicate.index()].kind != Kind::Derived {
+                row.clear();
+                row.extend(fact.arguments.iter().map(|object| object.0));
+                relations[fact.predicate.index()].insert(&row);
+            }
         }
-    }
+    };
+    insert(&problem.init, &mut relations);
     let initial: Vec<u32> = relations.iter().map(Relation::len).collect();
+    insert(open, &mut relations);
     let mut reach = reach::reach(normal, &world, relations, limits)
         .map_err(interrupted("finding reachable facts"))?;
     let relations = std::mem::take(&mut reach.relations);
     let mut emission = emit::Emission::new(normal, problem, &world, limits, relations, &initial);
     let reachable = emission.run(&reach).map_err(interrupted("writing operators"))?;
-    let mut grounded = emission.grounded;
+    let grounded = emission.grounded;
     // The fixpoint took universal conditions as true, so less may be reachable than it found.
     let universals = |condition: &Condition| !condition.universals.is_empty();
     let approximate = normal.schemas.iter().any(|schema| {
@@ -73,8 +111,10 @@ pub fn ground(
             || schema.effects.iter().any(|effect| universals(&effect.condition))
     }) || normal.rules.iter().any(|rule| universals(&rule.condition));
     let exact = !emission.dropped && !approximate;
-    if !reachable || !simplify::simplify(&mut grounded, exact) {
-        return Ok(Outcome::Unsolvable);
-    }
-    Ok(Outcome::Grounded(Box::new(grounded)))
+    Ok(reachable.then_some((grounded, exact)))
+}
+
+/// Takes out of a ground problem what always or never holds and what never applies, as [`ground`] does; false if the goal cannot be reached.
+pub fn simplify(grounded: &mut Grounded) -> bool {
+    simplify::simplify(grounded, false)
 }

@@ -23,8 +23,9 @@ use std::hash::BuildHasher;
 use crate::grounded::{FactId, Grounded};
 use crate::limits::Limits;
 use crate::normal::{Kind, Normal};
+pub use candidate::{Candidate, Part};
+
 use balance::{Actions, Open, Verdict};
-use candidate::Candidate;
 use equality::Kinds;
 
 /// So many candidates are looked at, at most.
@@ -48,6 +49,24 @@ pub fn groups(
     let actions = Actions::new(normal, grounded, &kinds);
     let invariants = synthesize(normal, &actions, limits);
     instantiate(&invariants, problem, normal, grounded)
+}
+
+/// The invariants of a problem before they are instantiated: only those that some effect adds to, since of the others the actions say nothing.
+/// They hold whatever the initial state: where at most one of the facts of an instance holds, it stays so.
+///
+/// `grounded` may have more instances of actions than are reachable. Told to stop, it returns what it has found by then.
+pub fn lifted(
+    domain: &Domain,
+    problem: &Problem,
+    normal: &Normal,
+    grounded: &Grounded,
+    limits: &Limits,
+) -> Vec<Candidate> {
+    let kinds = Kinds::new(domain, problem);
+    let actions = Actions::new(normal, grounded, &kinds);
+    let mut invariants = synthesize(normal, &actions, limits);
+    invariants.retain(|one| one.parts.iter().any(|part| actions.adds(part.predicate)));
+    invariants
 }
 
 /// All candidates that hold, in the order in which they were found.

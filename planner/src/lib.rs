@@ -1,4 +1,4 @@
-//! A checked problem goes in; a ground [`task::Task`], a search and a plan come out.
+//! A checked problem goes in; a ground [`task::Task`], a search and a plan come out, or, where there is no plan, what would have to be different.
 
 pub mod limits;
 pub mod normal;
@@ -19,3 +19,5 @@ pub mod space;
 pub mod open;
 pub mod heuristics;
 pub mod search;
+pub mod solve;
+pub mod excuse;

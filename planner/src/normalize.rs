@@ -31,11 +31,23 @@ pub struct Unsupported {
 /// # Errors
 /// Action atoms, which [`lang::multiagent`] compiles away; costs that are negative, depend on a condition, or do not fit into 32 bits when scaled to integers.
 pub fn normalize(domain: &Domain, problem: &Problem) -> Result<Normal, Unsupported> {
+    normalize_open(domain, problem, &[])
+}
+
+/// As [`normalize`], but the predicates `open` count as if some effect changed them, so that nothing is decided by what the initial state says of them.
+///
+/// # Errors
+/// As there.
+pub fn normalize_open(
+    domain: &Domain,
+    problem: &Problem,
+    open: &[PredicateId],
+) -> Result<Normal, Unsupported> {
     if let Some(span) = action_atom(domain) {
         let message = "an action atom, unless the domain is compiled".to_owned();
         return Err(Unsupported { message, span });
     }
-    let mut builder = split::Builder::new(predicates(domain));
+    let mut builder = split::Builder::new(predicates(domain, open));
     let costs = cost::Costs::new(domain, problem)?;
     let mut schemas = Vec::new();
     for (index, action) in domain.actions.iter().enumerate() {
@@ -69,7 +81,7 @@ fn action_atom(domain: &Domain) -> Option<Span> {
 }
 
 /// The predicates of `domain` with what changes them.
-fn predicates(domain: &Domain) -> Vec<Predicate> {
+fn predicates(domain: &Domain, open: &[PredicateId]) -> Vec<Predicate> {
     let mut predicates: Vec<Predicate> = domain
         .predicates
         .iter()
@@ -84,7 +96,9 @@ fn predicates(domain: &Domain) -> Vec<Predicate> {
         .iter()
         .flat_map(|action| &action.effects)
         .flat_map(|effect| &effect.literals);
-    for PredicateId(id) in literals.map(|literal| literal.atom.predicate) {
+    for PredicateId(id) in
+        literals.map(|literal| literal.atom.predicate).chain(open.iter().copied())
+    {
         predicates[id as usize].kind = Kind::Fluent;
     }
     predicates

@@ -10,6 +10,7 @@ use lang::plan::{JointPlan, Plan, Step};
 use lang::validate::joint::{self as judge, Success, Verdict};
 use planner::heuristics::Kind;
 use planner::search::{Config, Strategy};
+use planner::solve::Obstacle;
 use serde_json::json;
 
 use super::better::Effort;
@@ -19,7 +20,7 @@ use crate::args::{self, JointFormat, ObjectiveName};
 use crate::exit::Exit;
 use crate::input::{self, Input};
 use crate::limits::Watch;
-use crate::pipeline::{self, End, Obstacle, Ready};
+use crate::pipeline::{self, End, Ready};
 use crate::progress::Progress;
 use crate::terminal::Terminal;
 

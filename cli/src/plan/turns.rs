@@ -8,9 +8,10 @@ use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 
 use planner::search::{Status, Strategy};
+use planner::solve::Obstacle;
 
 use super::joint::Failure;
-use crate::pipeline::{End, Obstacle};
+use crate::pipeline::End;
 
 /// A way to search.
 pub(super) struct Way {

@@ -5,6 +5,7 @@ use rust_decimal::Decimal;
 use super::expression::{Expression, ItemId, Value};
 use super::{Annotation, Models};
 use crate::diagnostic::{Diagnostics, malformed_annotation};
+use crate::group;
 use crate::near::nearest;
 
 /// The fields of `:causal`.
@@ -84,9 +85,13 @@ pub(super) fn observed(annotation: &Annotation, _: Models<'_>, diagnostics: &mut
 }
 
 /// `(:exactly-one (PREDICATE …) …)`
-pub(super) fn group(annotation: &Annotation, _: Models<'_>, diagnostics: &mut Diagnostics) {
+pub(super) fn group(annotation: &Annotation, models: Models<'_>, diagnostics: &mut Diagnostics) {
+    let before = diagnostics.list.len();
     let atom = |part| is_atom(&annotation.expression, part);
     each(annotation, "atoms", "(holding ?x)", atom, diagnostics);
+    if let (true, Some(domain)) = (diagnostics.list.len() == before, models.domain) {
+        diagnostics.list.extend(group::wrong(annotation, domain, models.problem));
+    }
 }
 
 /// `(:seen …)`: what is said is for whoever learns.

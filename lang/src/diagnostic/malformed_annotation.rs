@@ -36,6 +36,23 @@ pub fn repeated(field: &str, span: Span) -> Diagnostic {
     RULE.at(span, format!("`{field}` stands here again"), "a field stands once in an annotation")
 }
 
+/// The annotation names a thing of this sort that there is not.
+pub fn unknown(sort: &str, name: &str, span: Span, near: Option<&str>) -> Diagnostic {
+    RULE.at(span, format!("there is no {sort} `{name}`"), "not declared").suggest(near)
+}
+
+/// An atom has `found` arguments where its predicate takes `wanted`.
+pub fn arity(name: &str, wanted: usize, found: usize, span: Span) -> Diagnostic {
+    let s = if wanted == 1 { "" } else { "s" };
+    let message = format!("predicate `{name}` takes {wanted} argument{s}, {found} given");
+    RULE.at(span, message, format!("expected {wanted}"))
+}
+
+/// An atom has no name.
+pub fn nameless(span: Span) -> Diagnostic {
+    RULE.at(span, "an atom begins with the name of a predicate", "no name here")
+}
+
 #[cfg(test)]
 mod tests {
     use crate::diagnostic::fixture::check;
@@ -65,6 +82,19 @@ mod tests {
       ;@   :bind ((x (offset ?a) :nominal 0 :sd 0.4) (y (offset ?b) :from (a ?b) :otherwise 0)))
     )
     :effect (p)))
+"]);
+    }
+
+    #[test]
+    fn groups_of_atoms() {
+        check(&["(define (domain d)
+  (:predicates (p) (holding ?x))
+  ;@ (:exactly-one (p) (holdin ?x))
+;                       ^^^^^^ E1005: there is no predicate `holdin`
+  ;@ (:at-most-one (p ?x) (holding box))
+;                  ^^^^^^ E1005: predicate `p` takes 0 arguments, 1 given
+;                                  ^^^ E1005: there is no object `box`
+)
 "]);
     }
 

@@ -160,6 +160,11 @@ impl<'a> Actions<'a> {
         Self { kinds, all: actions, adders }
     }
 
+    /// Whether some effect adds facts of a predicate.
+    pub(super) fn adds(&self, predicate: u32) -> bool {
+        !self.adders[predicate as usize].is_empty()
+    }
+
     /// Checks what is open about a candidate.
     ///
     /// Where one that it extends was found harmless, it is harmless itself: it rules out more states and covers more that is deleted.

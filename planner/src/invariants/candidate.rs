@@ -2,21 +2,22 @@
 
 /// The facts of one predicate that a candidate covers.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) struct Part {
+pub struct Part {
     /// Indexes the predicates of the normal form.
-    pub(super) predicate: u32,
+    pub predicate: u32,
     /// For each parameter of the candidate the argument that has its value. At most one argument is left over: the counted one,
     /// which may have any value.
-    pub(super) order: Vec<u32>,
+    pub order: Vec<u32>,
     /// The counted argument.
-    pub(super) counted: Option<u32>,
+    pub counted: Option<u32>,
 }
 
 /// A set of parts, one for a predicate at most, sorted by predicate. Parameters are numbered as they stand in the first part, so that
 /// two candidates that say the same are equal.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub(super) struct Candidate {
-    pub(super) parts: Vec<Part>,
+pub struct Candidate {
+    /// Its parts.
+    pub parts: Vec<Part>,
 }
 
 impl Candidate {
@@ -30,7 +31,7 @@ impl Candidate {
     }
 
     /// How many parameters it has.
-    pub(super) fn parameters(&self) -> usize {
+    pub fn parameters(&self) -> usize {
         self.parts[0].order.len()
     }
 

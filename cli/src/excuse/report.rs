@@ -1,0 +1,297 @@
+//! What was found out goes in; the answer for a reader or for a program comes out.
+
+use lang::model::Fact;
+use lang::plan;
+use planner::excuse::{Excuse, Origin, Outcome, Statistics, Unfinished, Why};
+use serde_json::{Value, json};
+
+use super::words::{Mood, Words, listed};
+use crate::input::Input;
+
+/// How an answer is said.
+pub struct Report<'a> {
+    /// What was asked about.
+    pub input: &'a Input,
+    /// What was done.
+    pub statistics: Statistics,
+    /// CPU time of the search for excuses, in seconds.
+    pub seconds: f64,
+}
+
+impl Report<'_> {
+    fn words<'b>(&'b self, excuse: &'b Excuse) -> Words<'b> {
+        Words { domain: &self.input.domain, problem: &excuse.problem }
+    }
+
+    /// The steps of an excuse's plan.
+    fn steps(&self, excuse: &Excuse) -> Vec<String> {
+        let line = |step| plan::line(step, &self.input.domain, &excuse.problem);
+        excuse.plan.steps.iter().map(line).collect()
+    }
+
+    /// The whole answer in words.
+    pub fn text(&self, outcome: &Outcome) -> String {
+        match outcome {
+            Outcome::Solvable(plan) => {
+                let mut text = format!(
+                    "The problem needs no excuse: it has a plan of {}.\n",
+                    steps(plan.steps.len())
+                );
+                for step in &plan.steps {
+                    text.push_str(&format!(
+                        "     {}\n",
+                        plan::line(step, &self.input.domain, &self.input.problem)
+                    ));
+                }
+                text
+            }
+            Outcome::Excuses { missing, list, proven, complete } => {
+                self.excuses(missing, list, *proven, *complete)
+            }
+            Outcome::None { presumed } => {
+                let mut text = String::from(
+                    "The problem has no plan, and no change of the initial state that is allowed gives it one.\n",
+                );
+                if *presumed {
+                    text.push_str(
+                        "This takes for granted that things are in one place or state where they are so now; `--presume-nothing` does not.\n",
+                    );
+                }
+                text
+            }
+            Outcome::Unknown { bound, reason } => {
+                let why = match reason {
+                    Unfinished::Stopped(_) => "a limit was reached",
+                    Unfinished::Large => {
+                        "there are too many things that might be changed; `--only` and `--protect` leave some out"
+                    }
+                };
+                format!(
+                    "The problem has no plan. No excuse was found: {why}.\nNone costs less than {bound}.\n"
+                )
+            }
+            Outcome::Undecided(_) => {
+                "A limit was reached before it was known whether the problem has a plan.\n"
+                    .to_owned()
+            }
+        }
+    }
+
+    fn excuses(&self, missing: &[Fact], list: &[Excuse], proven: bool, complete: bool) -> String {
+        let mut text = String::from("The problem has no plan as it stands.\n");
+        for (number, excuse) in list.iter().enumerate() {
+            let words = self.words(excuse);
+            text.push_str(&format!("\n{}. {}\n", number + 1, self.heading(excuse)));
+            for change in &excuse.changes {
+                text.push_str(&format!("     {}\n", formal(words, change)));
+            }
+            text.push_str(&format!("   {}\n", self.sentence(missing, excuse)));
+            for step in self.steps(excuse) {
+                text.push_str(&format!("     {step}\n"));
+            }
+            if let Some(&deeper) = excuse.follows_from.first() {
+                text.push_str(&format!(
+                    "   Excuse {} is the deeper cause: from there a plan leads here.\n",
+                    deeper + 1
+                ));
+            }
+        }
+        text.push('\n');
+        let cost = list.first().map_or(0, |excuse| excuse.cost);
+        let ties = match (list.len(), complete) {
+            (1, true) => ", and no other of the same cost",
+            (_, true) => ", and no others of the same cost",
+            (_, false) => "; there may be more of the same cost",
+        };
+        text.push_str(&match proven {
+            true => format!("No excuse costs less than {cost}{ties}.\n"),
+            false => format!("It is not proven that no excuse costs less than {cost}.\n"),
+        });
+        text
+    }
+
+    /// What would have to be so.
+    fn heading(&self, excuse: &Excuse) -> String {
+        let words = self.words(excuse);
+        let parts: Vec<String> =
+            excuse.changes.iter().map(|change| words.change(change, false)).collect();
+        format!("If {} (cost {})", listed(&parts), excuse.cost)
+    }
+
+    /// Why, in a sentence or three.
+    pub fn sentence(&self, missing: &[Fact], excuse: &Excuse) -> String {
+        let words = self.words(excuse);
+        let mut text = String::new();
+        let wishes: Vec<String> = missing.iter().take(3).map(|fact| words.wish(fact)).collect();
+        if wishes.is_empty() {
+            text.push_str("Each part of the goal is in reach by itself, but not all of it. ");
+        } else {
+            let more = if missing.len() > 3 { ", among others" } else { "" };
+            text.push_str(&format!("The goal needs {}{more}. ", listed(&wishes)));
+        }
+        let mut subject = None;
+        for change in excuse.changes.iter().take(4) {
+            let Some(to) = change.to.as_ref().filter(|_| change.object.is_none()) else { continue };
+            let now = match &change.from {
+                Some(from) => {
+                    let it = from.arguments.first() == to.arguments.first();
+                    words.clause(from, Mood::Is, it && !from.arguments.is_empty())
+                }
+                None => words.clause(to, Mood::IsNot, true),
+            };
+            match change.why {
+                Why::NoAction => {
+                    text.push_str(&format!("No action {}, and {now}. ", words.makes(to)));
+                }
+                Why::OutOfReach => {
+                    text.push_str(&format!(
+                        "What {} is out of reach, and {now}. ",
+                        words.makes(to)
+                    ));
+                }
+                Why::TooLate | Why::Other => {
+                    if change.from.is_some() {
+                        text.push_str(&format!(
+                            "Now {}. ",
+                            words.clause(
+                                change.from.as_ref().expect("it is there"),
+                                Mood::Is,
+                                false
+                            )
+                        ));
+                    }
+                }
+            }
+            subject = to.arguments.first().copied();
+        }
+        let single = excuse.changes.len() == 1 && subject.is_some();
+        let parts: Vec<String> = excuse
+            .changes
+            .iter()
+            .map(|change| {
+                words
+                    .change(change, single && matches!(change.why, Why::NoAction | Why::OutOfReach))
+            })
+            .collect();
+        let plan = excuse.plan.steps.len();
+        text.push_str(&format!("If {}, this {plan}-step plan would do.", listed(&parts)));
+        text
+    }
+
+    /// The whole answer as JSON.
+    pub fn json(&self, outcome: &Outcome) -> Value {
+        let statistics = json!({
+            "seconds": self.seconds,
+            "facts": self.statistics.facts,
+            "operators": self.statistics.operators,
+            "variables": self.statistics.variables,
+            "edits": self.statistics.edits,
+            "cores": self.statistics.cores,
+            "nogoods": self.statistics.nogoods,
+            "tried": self.statistics.tried,
+        });
+        let mut document = match outcome {
+            Outcome::Solvable(plan) => {
+                let line = |step| plan::line(step, &self.input.domain, &self.input.problem);
+                let steps: Vec<String> = plan.steps.iter().map(line).collect();
+                json!({ "status": "solvable", "plan": steps })
+            }
+            Outcome::Excuses { missing, list, proven, complete } => {
+                let excuses: Vec<Value> = list
+                    .iter()
+                    .enumerate()
+                    .map(|(number, excuse)| self.excuse(number, missing, excuse))
+                    .collect();
+                json!({
+                    "status": "excuse",
+                    "proven": proven,
+                    "complete": complete,
+                    "cost": list.first().map_or(0, |excuse| excuse.cost),
+                    "excuses": excuses,
+                })
+            }
+            Outcome::None { presumed } => {
+                json!({ "status": "none", "proven": true, "presumed": presumed })
+            }
+            Outcome::Unknown { bound, reason } => {
+                let reason = match reason {
+                    Unfinished::Stopped(_) => "limit",
+                    Unfinished::Large => "too many facts",
+                };
+                json!({
+                    "status": "unknown", "unsolvable": true, "at_least": bound, "reason": reason
+                })
+            }
+            Outcome::Undecided(_) => {
+                json!({ "status": "unknown", "unsolvable": null, "reason": "limit" })
+            }
+        };
+        document["statistics"] = statistics;
+        document
+    }
+
+    fn excuse(&self, number: usize, missing: &[Fact], excuse: &Excuse) -> Value {
+        let words = self.words(excuse);
+        let edits: Vec<Value> = excuse
+            .changes
+            .iter()
+            .map(|change| {
+                let mut edit = json!({
+                    "from": change.from.as_ref().map(|fact| words.atom(fact)),
+                    "to": change.to.as_ref().map(|fact| words.atom(fact)),
+                    "cost": change.cost,
+                    "group": origin(change.origin),
+                });
+                if let Some((object, of)) = change.object {
+                    edit["object"] = json!(words.object(object));
+                    edit["type"] = json!(self.input.domain.types[of.index()].name.text);
+                }
+                edit
+            })
+            .collect();
+        json!({
+            "rank": number + 1,
+            "level": excuse.level,
+            "deeper": excuse.follows_from.iter().map(|one| one + 1).collect::<Vec<_>>(),
+            "cost": excuse.cost,
+            "edits": edits,
+            "plan": self.steps(excuse),
+            "sentence": self.sentence(missing, excuse),
+        })
+    }
+}
+
+/// `1 step`, `3 steps`.
+fn steps(count: usize) -> String {
+    if count == 1 { "1 step".to_owned() } else { format!("{count} steps") }
+}
+
+/// From where it is known what excludes what.
+pub fn origin(origin: Origin) -> &'static str {
+    match origin {
+        Origin::Declared => "declared",
+        Origin::Actions => "actions",
+        Origin::Presumed => "presumed",
+        Origin::Bare => "none",
+    }
+}
+
+/// A change as PDDL, with what it rests on where that is weak.
+fn formal(words: Words<'_>, change: &planner::excuse::Change) -> String {
+    let atom =
+        |fact: &Option<Fact>| fact.as_ref().map_or("nothing".to_owned(), |fact| words.atom(fact));
+    if let Some((object, of)) = change.object {
+        let of = &words.domain.types[of.index()].name.text;
+        return format!("+ {} - {of}", words.object(object));
+    }
+    let note = match change.origin {
+        Origin::Declared | Origin::Actions => "",
+        Origin::Presumed => "   ; presumed: in one place or state, as now",
+        Origin::Bare => "   ; a bare atom: what excludes it is not known",
+    };
+    match (&change.from, &change.to) {
+        (None, Some(to)) => format!("+ {}{note}", words.atom(to)),
+        (Some(from), None) => format!("- {}{note}", words.atom(from)),
+        (from, to) => format!("{} -> {}{note}", atom(from), atom(to)),
+    }
+}

@@ -1,0 +1,125 @@
+//! Excuses of random tiny problems against a search that tries every change and looks at every state.
+
+mod brute;
+mod random;
+
+use std::collections::BTreeSet;
+
+use lang::model::{Domain, Fact, Problem};
+use lang::source::Sources;
+use planner::excuse::{self, Outcome, Policy, Question, catalogue, find};
+use planner::limits::Limits;
+use proptest::prelude::*;
+
+use brute::Change;
+
+/// Reads two texts that are known to be right.
+fn read(domain: &str, problem: &str) -> (Domain, Problem) {
+    let mut sources = Sources::default();
+    let first = sources.add("domain.pddl".to_owned(), domain.to_owned());
+    let second = sources.add("problem.pddl".to_owned(), problem.to_owned());
+    let (domain, found) = lang::read_domain(&sources, first);
+    assert!(!found.has_errors(), "{}", lang::render::concise(&found, &sources));
+    let (problem, found) = lang::read_problem(&sources, second, &domain);
+    assert!(!found.has_errors(), "{}", lang::render::concise(&found, &sources));
+    (domain, problem)
+}
+
+/// The changes of an excuse as facts.
+fn changes(excuse: &excuse::Excuse) -> BTreeSet<Change> {
+    excuse.changes.iter().map(|change| (change.from.clone(), change.to.clone())).collect()
+}
+
+/// So many sets of changes are tried by hand at most, and so much may they cost.
+const SETS: usize = 4_000;
+const COST: u32 = 4;
+
+/// Compares one world. Says whether it had a smallest excuse.
+fn compare(domain: &str, problem: &str) -> bool {
+    let (domain, problem) = read(domain, problem);
+    let limits = Limits::default();
+    let policy = Policy { objects: 0, ..Policy::default() };
+    let question = Question {
+        policy: policy.clone(),
+        most_excuses: usize::MAX,
+        polish: 0,
+        ..Question::default()
+    };
+    let (outcome, _) = find(&domain, &problem, &question, &limits).expect("it is plain PDDL");
+    let known = catalogue(&domain, &problem, &policy, COST, &limits).expect("it is small");
+    let solvable = brute::has_plan(&domain, &problem);
+    assert_eq!(matches!(outcome, Outcome::Solvable(_)), solvable, "whether there is a plan");
+    let Some(known) = known.filter(|_| !solvable) else { return false };
+    let Some(smallest) = brute::smallest(&domain, &problem, &known, COST, SETS) else {
+        return false;
+    };
+    match outcome {
+        Outcome::Excuses { list, proven, complete, .. } => {
+            assert!(proven && complete);
+            if let Some((cost, sets)) = smallest {
+                assert_eq!(list[0].cost, cost, "the cost");
+                let ours: BTreeSet<BTreeSet<Change>> = list.iter().map(changes).collect();
+                assert_eq!(ours, sets, "all smallest excuses");
+                return true;
+            }
+            assert!(list[0].cost > COST, "none so cheap was found by hand");
+        }
+        Outcome::None { .. } => assert_eq!(smallest, None, "an excuse is lost"),
+        other => panic!("{other:?}"),
+    }
+    false
+}
+
+/// How many worlds are tried.
+fn cases() -> u32 {
+    let asked = std::env::var_os("PROPTEST_CASES").is_some();
+    if asked { ProptestConfig::default().cases } else { 400 }
+}
+
+#[test]
+fn smallest_excuses_are_those_that_trying_everything_finds() {
+    let mut found = 0;
+    let config =
+        ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(cases()) };
+    let mut runner = proptest::test_runner::TestRunner::new_with_rng(
+        config,
+        proptest::test_runner::TestRng::deterministic_rng(
+            proptest::test_runner::RngAlgorithm::ChaCha,
+        ),
+    );
+    let seeds = any::<u64>();
+    let counter = std::cell::Cell::new(0_u32);
+    runner
+        .run(&seeds, |seed| {
+            let (domain, problem) = random::world(seed);
+            let result = std::panic::catch_unwind(|| compare(&domain, &problem));
+            match result {
+                Ok(true) => counter.set(counter.get() + 1),
+                Ok(false) => {}
+                Err(_) => {
+                    return Err(TestCaseError::fail(format!("{domain}\n{problem}")));
+                }
+            }
+            Ok(())
+        })
+        .unwrap_or_else(|error| panic!("{error}"));
+    found += counter.get();
+    assert!(found > cases() / 10, "only {found} of {} worlds had an excuse", cases());
+}
+
+#[test]
+fn an_excuse_never_makes_the_goal_true_at_once() {
+    let domain = "(define (domain d) (:requirements :strips :derived-predicates)
+      (:predicates (lit) (wired) (powered) (tested))
+      (:derived (lit) (and (wired) (powered)))
+      (:action wire :parameters () :precondition (and (powered) (tested)) :effect (wired)))";
+    let problem = "(define (problem p) (:domain d) (:init (tested)) (:goal (lit)))";
+    let (domain, problem) = read(domain, problem);
+    let (outcome, _) =
+        find(&domain, &problem, &Question::default(), &Limits::default()).expect("it is plain");
+    let Outcome::Excuses { list, .. } = outcome else { panic!("{outcome:?}") };
+    let powered = |fact: &Fact| domain.predicates[fact.predicate.index()].name.text == "powered";
+    assert_eq!(list.len(), 1);
+    assert!(list[0].changes[0].to.as_ref().is_some_and(powered));
+    assert_eq!(list[0].plan.steps.len(), 1);
+}
