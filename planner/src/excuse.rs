@@ -22,7 +22,7 @@ use std::collections::BTreeSet;
 use lang::model::{Domain, Fact, ObjectId, PredicateId, Problem, TypeId};
 use lang::plan::Plan;
 
-use crate::invariants;
+use crate::invariants::{self, Candidate};
 use crate::limits::{Limits, Stop};
 use crate::normalize::Unsupported;
 use crate::solve::{Answer, solve};
@@ -179,6 +179,7 @@ pub fn find(
         presumed: false,
         bound: 0,
         best: None,
+        invariants: None,
     };
     for (most, next) in stages(domain, problem, &question.policy)? {
         if let Some(outcome) = run.stage(most, next)? {
@@ -207,6 +208,13 @@ struct Run<'a> {
     bound: u32,
     /// The cheapest excuses so far, of which it is not known whether there are cheaper ones; and which goals are out of reach.
     best: Option<(Found, Vec<Fact>)>,
+    /// What the actions keep, of all stages.
+    invariants: Option<Vec<Candidate>>,
+}
+
+/// What the actions keep, by the first stage that can be opened.
+fn known(domain: &Domain, open: &Open, limits: &Limits) -> Vec<Candidate> {
+    invariants::lifted(domain, &open.problem, &open.normal, &open.grounded, limits)
 }
 
 impl Run<'_> {
@@ -230,9 +238,9 @@ impl Run<'_> {
                 }));
             }
         };
-        let grounded = &open.grounded;
-        let invariants = invariants::lifted(domain, &open.problem, &open.normal, grounded, limits);
-        let vocabulary = Vocabulary::new(&open, domain, &invariants, &self.question.policy);
+        // What excludes what does not depend on what is open.
+        let invariants = self.invariants.get_or_insert_with(|| known(domain, &open, limits));
+        let vocabulary = Vocabulary::new(&open, domain, invariants, &self.question.policy);
         self.presumed |= vocabulary.groups.iter().any(|group| group.origin == Origin::Presumed);
         let mut refuted = std::mem::take(&mut self.refuted);
         let mut stage = Stage::new(
@@ -361,19 +369,25 @@ pub fn catalogue(
     limits: &Limits,
 ) -> Result<Option<Catalogue>, CatalogueError> {
     let policy = Policy { objects: 0, ..policy.clone() };
-    let open = match Open::new(domain, problem, &policy, most, limits) {
-        Ok(open) => open,
-        Err(Obstacle::Hopeless) => return Ok(None),
-        Err(Obstacle::Unsupported(unsupported)) => {
-            return Err(CatalogueError::Unsupported(unsupported));
-        }
-        Err(Obstacle::Large) => return Err(CatalogueError::Unfinished(Unfinished::Large)),
-        Err(Obstacle::Stopped(stop)) => {
-            return Err(CatalogueError::Unfinished(Unfinished::Stopped(stop)));
-        }
-    };
-    let invariants =
-        invariants::lifted(domain, &open.problem, &open.normal, &open.grounded, limits);
+    let mut invariants = None;
+    let mut opened = None;
+    let stages = stages(domain, problem, &policy).map_err(CatalogueError::Unsupported)?;
+    for bound in stages.into_iter().map(|(bound, _)| bound).take_while(|&bound| bound <= most) {
+        let open = match Open::new(domain, problem, &policy, bound, limits) {
+            Ok(open) => open,
+            Err(Obstacle::Hopeless) => continue,
+            Err(Obstacle::Unsupported(unsupported)) => {
+                return Err(CatalogueError::Unsupported(unsupported));
+            }
+            Err(Obstacle::Large) => return Err(CatalogueError::Unfinished(Unfinished::Large)),
+            Err(Obstacle::Stopped(stop)) => {
+                return Err(CatalogueError::Unfinished(Unfinished::Stopped(stop)));
+            }
+        };
+        invariants.get_or_insert_with(|| known(domain, &open, limits));
+        opened = Some(open);
+    }
+    let (Some(open), Some(invariants)) = (opened, invariants) else { return Ok(None) };
     let vocabulary = Vocabulary::new(&open, domain, &invariants, &policy);
     let fact = |fact: Option<crate::grounded::FactId>| Vocabulary::fact(&open, fact?);
     let choice = |variable: &vocabulary::Variable| Choice {

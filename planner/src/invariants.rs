@@ -46,7 +46,7 @@ pub fn groups(
     limits: &Limits,
 ) -> Vec<Vec<FactId>> {
     let kinds = Kinds::new(domain, problem);
-    let actions = Actions::new(normal, grounded, &kinds);
+    let actions = Actions::new(normal, grounded, false, &kinds);
     let invariants = synthesize(normal, &actions, limits);
     instantiate(&invariants, problem, normal, grounded)
 }
@@ -54,7 +54,7 @@ pub fn groups(
 /// The invariants of a problem before they are instantiated: only those that some effect adds to, since of the others the actions say nothing.
 /// They hold whatever the initial state: where at most one of the facts of an instance holds, it stays so.
 ///
-/// `grounded` may have more instances of actions than are reachable. Told to stop, it returns what it has found by then.
+/// `grounded` may have more instances of actions than are reachable, and actions without any count, too. Told to stop, it returns what it has found by then.
 pub fn lifted(
     domain: &Domain,
     problem: &Problem,
@@ -63,7 +63,7 @@ pub fn lifted(
     limits: &Limits,
 ) -> Vec<Candidate> {
     let kinds = Kinds::new(domain, problem);
-    let actions = Actions::new(normal, grounded, &kinds);
+    let actions = Actions::new(normal, grounded, true, &kinds);
     let mut invariants = synthesize(normal, &actions, limits);
     invariants.retain(|one| one.parts.iter().any(|part| actions.adds(part.predicate)));
     invariants

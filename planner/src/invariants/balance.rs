@@ -123,14 +123,23 @@ pub(super) struct Actions<'a> {
 }
 
 impl<'a> Actions<'a> {
-    /// Prepares the schemas of a problem.
-    pub(super) fn new(normal: &'a Normal, grounded: &Grounded, kinds: &'a Kinds) -> Self {
+    /// Prepares the schemas of a problem: those with instances, or `all` of them.
+    pub(super) fn new(
+        normal: &'a Normal,
+        grounded: &Grounded,
+        all: bool,
+        kinds: &'a Kinds,
+    ) -> Self {
         let apart = apart(normal, grounded);
         let mut adders = vec![Vec::new(); normal.predicates.len()];
         let mut actions = Vec::with_capacity(normal.schemas.len());
         for schema in &normal.schemas {
             // An action without any instance cannot break anything.
-            let Some(apart) = &apart[schema.action.index()] else { continue };
+            let apart = match &apart[schema.action.index()] {
+                Some(apart) => apart.as_slice(),
+                None if all => &[],
+                None => continue,
+            };
             let change = |effect: &'a crate::normal::Effect| Change {
                 atom: &effect.literal.atom,
                 variables: &effect.variables,
