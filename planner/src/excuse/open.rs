@@ -99,13 +99,18 @@ impl Open {
             cost.filter(|&cost| cost <= most && matters)
         };
         let prices: Vec<Option<u32>> = (0..domain.predicates.len()).map(price).collect();
-        let opened: Vec<PredicateId> = (0..prices.len())
+        let editable: Vec<PredicateId> = (0..prices.len())
             .filter(|&number| prices[number].is_some())
             .map(|number| PredicateId(number as u32))
             .collect();
+        // What is declared to exclude something has to give way to it, even if it is too dear to be made true.
+        let declared = policy.declared.iter().flat_map(|group| &group.atoms);
+        let mut opened: Vec<PredicateId> = declared.map(|atom| atom.predicate).collect();
+        opened.retain(|id| !domain.predicates[id.index()].derived);
+        opened.extend(&editable);
         let normal =
             normalize::normalize_open(domain, &problem, &opened).map_err(Obstacle::Unsupported)?;
-        let facts = facts(domain, &problem, &normal, &opened).ok_or(Obstacle::Large)?;
+        let facts = facts(domain, &problem, &normal, &editable).ok_or(Obstacle::Large)?;
         let grounded = match ground::ground_open(domain, &problem, &normal, &facts, limits) {
             Ok(Some(grounded)) => grounded,
             Ok(None) => return Err(Obstacle::Hopeless),
