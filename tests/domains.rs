@@ -123,7 +123,7 @@ fn problems(name: &str) -> impl Iterator<Item = (PathBuf, Known)> {
 }
 
 /// Runs one verb in this process; what it printed and said comes back as one text.
-fn caveat(verb: &str, options: &[&str], files: &[&Path]) -> (Exit, String) {
+pub fn caveat(verb: &str, options: &[&str], files: &[&Path]) -> (Exit, String) {
     let (mut out, mut err) = (Vec::new(), Vec::new());
     let mut terminal = Terminal::new(&mut out, &mut err);
     let arguments = ["caveat", verb, "--output-format", "concise"]

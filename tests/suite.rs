@@ -10,3 +10,4 @@ mod listings;
 mod multiagent_page;
 mod replay;
 mod tidy;
+mod unsolvable;

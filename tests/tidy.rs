@@ -130,7 +130,7 @@ fn each_domain_has_its_page() {
         .filter(|path| path.join("domain.pddl").is_file())
         .map(|path| name(&path))
         .collect();
-    let names = domains::NAMES.into_iter().chain(domains::MULTI_AGENT);
+    let names = domains::NAMES.into_iter().chain(domains::MULTI_AGENT).chain(domains::UNSOLVABLE);
     let names: BTreeSet<String> = names.map(String::from).collect();
     assert_eq!(folders, names);
     let index = read("domains/README.md");

@@ -1,6 +1,7 @@
 //! The name of a reference domain goes in; the folder with its domain, problems and known optimal costs comes out.
 //!
 //! The domains are plain files, each in its own folder beside this crate's `src`, and README.md there says what each teaches.
+//! [`kitchen`] makes kitchens of any size in which something is missing.
 //! This crate will also hold the physical worlds that generate demonstrations and trials for them.
 //!
 //! ```
@@ -8,6 +9,8 @@
 //! assert!(stacking.join("domain.pddl").is_file());
 //! assert!(domains::NAMES.contains(&"stacking"));
 //! ```
+
+pub mod kitchen;
 
 use std::path::PathBuf;
 
@@ -18,7 +21,10 @@ pub const NAMES: [&str; 8] =
 /// The names of the domains for several agents, in the order in which they are best read; they lie beside the others.
 pub const MULTI_AGENT: [&str; 5] = ["bottle", "moves", "table", "hanoi-arms", "warehouse"];
 
-/// The folder that holds one folder for each of [`NAMES`] and [`MULTI_AGENT`], on the machine where this crate was built.
+/// The names of the domains whose problems have no plan, in the order in which they are best read; they lie beside the others.
+pub const UNSOLVABLE: [&str; 5] = ["closed-drawer", "blocked-drawer", "vials", "cranes", "rovers"];
+
+/// The folder that holds one folder for each of [`NAMES`], [`MULTI_AGENT`] and [`UNSOLVABLE`], on the machine where this crate was built.
 pub fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
