@@ -2,6 +2,9 @@
 
 mod words;
 mod report;
+mod beyond;
+mod lesson;
+mod variables;
 
 use std::path::Path;
 
@@ -16,6 +19,7 @@ use crate::files::{self, Complaint};
 use crate::input::{self, Input, Reader};
 use crate::limits::{Allowance, Watch, cpu_time};
 use crate::terminal::Terminal;
+use beyond::Beyond;
 use report::Report;
 
 /// Finds excuses, or does what else is asked for.
@@ -42,6 +46,9 @@ pub fn run(arguments: &Excuse, terminal: &mut Terminal) -> Exit {
     };
     let allowance = Allowance { time: arguments.time_limit, memory: arguments.memory_limit };
     let watch = Watch::start(allowance, false);
+    if let Some(most) = arguments.variables {
+        return variables::print(&input, &question.policy, most, &watch, format, terminal);
+    }
     let start = cpu_time();
     let found = excuse::find(&input.domain, &input.problem, &question, &watch.limits);
     let seconds = (cpu_time().saturating_sub(start)).as_secs_f64();
@@ -58,11 +65,26 @@ pub fn run(arguments: &Excuse, terminal: &mut Terminal) -> Exit {
         terminal.say(complaint);
         return Exit::Failed;
     }
+    if arguments.check_demo.is_some() {
+        return lesson::check(arguments, &input, &outcome, &watch, terminal);
+    }
     let report = Report { input: &input, statistics, seconds };
+    if let (Some(folder), Outcome::Excuses { missing, list, .. }) =
+        (&arguments.demonstrate, &outcome)
+        && let Err(complaint) = lesson::write(&report, missing, list, folder)
+    {
+        terminal.say(complaint);
+        return Exit::Failed;
+    }
+    let beyond = Beyond::look(arguments, &input, &question, &outcome, &watch, terminal);
     match arguments.output_format {
-        AnswerFormat::Full => terminal.data(report.text(&outcome)),
+        AnswerFormat::Full => {
+            terminal.data(report.text(&outcome));
+            terminal.data(beyond.text(&input));
+        }
         AnswerFormat::Json => {
-            let document = report.json(&outcome);
+            let mut document = report.json(&outcome);
+            beyond.add_to(&mut document, &input);
             terminal.line(serde_json::to_string_pretty(&document).expect("it is plain data"));
         }
     }

@@ -16,6 +16,8 @@ mod hitting;
 mod project;
 mod stage;
 mod rank;
+pub mod goals;
+pub mod operators;
 
 use std::collections::BTreeSet;
 
@@ -47,7 +49,7 @@ pub struct Question {
 
 impl Default for Question {
     fn default() -> Self {
-        Self { policy: Policy::default(), most_edits: 64, most_excuses: 10, polish: 20_000_000 }
+        Self { policy: Policy::default(), most_edits: 64, most_excuses: 10, polish: 2_000_000 }
     }
 }
 

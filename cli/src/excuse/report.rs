@@ -8,6 +8,9 @@ use serde_json::{Value, json};
 use super::words::{Mood, Words, listed};
 use crate::input::Input;
 
+/// So many steps are shown of plans after the first.
+pub const FEW: usize = 6;
+
 /// How an answer is said.
 pub struct Report<'a> {
     /// What was asked about.
@@ -86,8 +89,14 @@ impl Report<'_> {
                 text.push_str(&format!("     {}\n", formal(words, change)));
             }
             text.push_str(&format!("   {}\n", self.sentence(missing, excuse)));
-            for step in self.steps(excuse) {
+            let steps = self.steps(excuse);
+            // The first plan is shown whole; of others so much that they can be told apart.
+            let shown = if number == 0 || steps.len() <= FEW { steps.len() } else { FEW };
+            for step in &steps[..shown] {
                 text.push_str(&format!("     {step}\n"));
+            }
+            if shown < steps.len() {
+                text.push_str(&format!("     … and {} more\n", steps.len() - shown));
             }
             if let Some(&deeper) = excuse.follows_from.first() {
                 text.push_str(&format!(
@@ -131,7 +140,10 @@ impl Report<'_> {
         }
         let mut subject = None;
         for change in excuse.changes.iter().take(4) {
-            let Some(to) = change.to.as_ref().filter(|_| change.object.is_none()) else { continue };
+            let old = self.input.problem.objects.len();
+            let new = |fact: &Fact| fact.arguments.iter().any(|object| object.index() >= old);
+            let told = change.object.is_some() || change.to.as_ref().is_some_and(new);
+            let Some(to) = change.to.as_ref().filter(|_| !told) else { continue };
             let now = match &change.from {
                 Some(from) => {
                     let it = from.arguments.first() == to.arguments.first();

@@ -1,9 +1,10 @@
 //! Facts and changes go in; clauses of English sentences come out: `pink-drawer is open`, `the key were in box`.
 //!
-//! A fact about one object is an adjective of it, one about two a relation between them. Predicates that read otherwise (`has-image`, `can-reach`) keep
-//! their verb, and whatever has more arguments is quoted as it is written.
+//! A fact about one object is an adjective of it, one about two a relation between them. Predicates that begin with a verb (`has-image`, `blocks`) keep
+//! it, and whatever has more arguments is quoted as it is written.
 
-use lang::model::{Domain, Fact, ObjectId, Problem};
+use lang::condition::Condition;
+use lang::model::{Domain, Fact, ObjectId, Problem, Term, VariableId};
 use planner::excuse::Change;
 
 /// The names by which a domain and a problem speak.
@@ -28,8 +29,23 @@ pub enum Mood {
     WereNot,
 }
 
-/// Words that begin the name of a predicate and are verbs of their own.
-const VERBS: [&str; 8] = ["has", "have", "can", "needs", "knows", "contains", "supports", "wants"];
+/// Words that begin the name of a predicate and end like a verb, but are none.
+const NO_VERBS: [&str; 8] =
+    ["across", "towards", "besides", "always", "as", "its", "this", "sometimes"];
+
+/// What a word that begins the name of a predicate is as a verb without its ending; nothing if it is none.
+fn verb(word: &str) -> Option<&str> {
+    match word {
+        "has" => Some("have"),
+        "can" => Some("can"),
+        _ if NO_VERBS.contains(&word) || word.ends_with("ss") || word.ends_with("us") => None,
+        _ if word.len() < 4 => None,
+        _ if ["ches", "shes", "xes", "sses"].iter().any(|end| word.ends_with(end)) => {
+            Some(&word[..word.len() - 2])
+        }
+        _ => word.strip_suffix('s'),
+    }
+}
 
 impl Words<'_> {
     /// An object.
@@ -57,9 +73,9 @@ impl Words<'_> {
         if first == "is" && !rest.is_empty() {
             return (None, rest.to_owned());
         }
-        match VERBS.contains(&first) {
-            true => (Some(first.to_owned()), rest.to_owned()),
-            false => (None, name),
+        match verb(first) {
+            Some(_) => (Some(first.to_owned()), rest.to_owned()),
+            None => (None, name),
         }
     }
 
@@ -79,27 +95,24 @@ impl Words<'_> {
                 format!("{} {is} {rest} {}", subject(*one), self.object(*other))
             }
             ([one, others @ ..], Some(verb)) if others.len() < 2 => {
+                let bare = super::words::verb(&verb).unwrap_or(&verb);
                 let verb = match (mood, verb.as_str()) {
                     (Mood::Is, verb) => verb.to_owned(),
                     (Mood::IsNot, "can") => "cannot".to_owned(),
                     (Mood::Were, "can") => "could".to_owned(),
                     (Mood::WereNot, "can") => "could not".to_owned(),
                     (Mood::Were, "has") => "had".to_owned(),
-                    (Mood::IsNot, "has") => "does not have".to_owned(),
-                    (Mood::WereNot, "has") => "did not have".to_owned(),
-                    (mood, _) => return self.quoted(fact, mood, holds),
+                    (Mood::IsNot, _) => format!("does not {bare}"),
+                    (Mood::Were, _) => format!("did {bare}"),
+                    (Mood::WereNot, _) => format!("did not {bare}"),
                 };
                 let others: String =
                     others.iter().map(|&other| format!(" {}", self.object(other))).collect();
                 let rest = if rest.is_empty() { rest } else { format!(" {rest}") };
                 format!("{} {verb}{rest}{others}", subject(*one))
             }
-            _ => self.quoted(fact, mood, holds),
+            _ => format!("`{}` {holds}", self.atom(fact)),
         }
-    }
-
-    fn quoted(self, fact: &Fact, _: Mood, holds: &str) -> String {
-        format!("`{}` {holds}", self.atom(fact))
     }
 
     /// What an action does that makes a fact true: `makes pink-drawer open`.
@@ -121,6 +134,48 @@ impl Words<'_> {
             ([one], None) => format!("{} {rest}", self.object(*one)),
             ([one, other], None) => format!("{} {rest} {}", self.object(*one), self.object(*other)),
             _ => format!("`{}`", self.atom(fact)),
+        }
+    }
+
+    /// A condition without variables of its own as PDDL.
+    pub fn condition(self, condition: &Condition) -> String {
+        let term = |term: &Term| match term {
+            Term::Object(object) => self.object(*object),
+            Term::Variable(variable) => {
+                self.problem.goal_scope.variables[variable.index()].name.text.clone()
+            }
+        };
+        let list = |head: &str, parts: &[Condition]| {
+            let parts: Vec<String> = parts.iter().map(|part| self.condition(part)).collect();
+            format!("({head} {})", parts.join(" "))
+        };
+        let signed = |text: String, holds: bool| {
+            if holds { text } else { format!("(not {text})") }
+        };
+        let variables = |variables: &[VariableId]| {
+            let names: Vec<String> =
+                variables.iter().map(|one| term(&Term::Variable(*one))).collect();
+            names.join(" ")
+        };
+        match condition {
+            Condition::Atom(atom, holds) => {
+                let name = &self.domain.predicates[atom.predicate.index()].name.text;
+                let arguments: String =
+                    atom.arguments.iter().map(|one| format!(" {}", term(one))).collect();
+                signed(format!("({name}{arguments})"), *holds)
+            }
+            Condition::Equal(left, right, holds) => {
+                signed(format!("(= {} {})", term(left), term(right)), *holds)
+            }
+            Condition::Action(..) => unreachable!("goals do not ask about joint actions"),
+            Condition::All(parts) => list("and", parts),
+            Condition::Any(parts) => list("or", parts),
+            Condition::Forall(bound, body) => {
+                format!("(forall ({}) {})", variables(bound), self.condition(body))
+            }
+            Condition::Exists(bound, body) => {
+                format!("(exists ({}) {})", variables(bound), self.condition(body))
+            }
         }
     }
 

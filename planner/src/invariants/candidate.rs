@@ -36,7 +36,7 @@ impl Candidate {
     }
 
     /// The part of a predicate.
-    pub(super) fn part(&self, predicate: u32) -> Option<&Part> {
+    pub fn part(&self, predicate: u32) -> Option<&Part> {
         let found = self.parts.binary_search_by_key(&predicate, |part| part.predicate);
         found.ok().map(|index| &self.parts[index])
     }
