@@ -26,6 +26,7 @@ use lang::plan::Plan;
 
 use crate::invariants::{self, Candidate};
 use crate::limits::{Limits, Stop};
+use crate::normal::Term;
 use crate::normalize::Unsupported;
 use crate::solve::{Answer, solve};
 use open::{Obstacle, Open};
@@ -182,10 +183,18 @@ pub fn find(
         bound: 0,
         best: None,
         invariants: None,
+        exhausted: false,
     };
-    for (most, next) in stages(domain, problem, &question.policy)? {
-        if let Some(outcome) = run.stage(most, next)? {
+    let hopeless = out_of_reach(domain, problem, &question.policy)?;
+    for stage in stages(domain, problem, &question.policy)? {
+        if hopeless {
+            break;
+        }
+        if let Some(outcome) = run.stage(stage)? {
             return Ok((outcome, run.statistics));
+        }
+        if run.exhausted {
+            break;
         }
     }
     let outcome = match run.best.take() {
@@ -194,6 +203,42 @@ pub fn find(
         None => Outcome::None { presumed: run.presumed },
     };
     Ok((outcome, run.statistics))
+}
+
+/// Whether the goal asks for a fact that does not hold, that no effect makes true and that must not be changed: then there is no need to look further.
+fn out_of_reach(domain: &Domain, problem: &Problem, policy: &Policy) -> Result<bool, Unsupported> {
+    let normal = crate::normalize::normalize(domain, problem)?;
+    let fits =
+        |term: &Term, object: &Term, variables: &[crate::normal::Variable]| match (term, object) {
+            (Term::Object(one), Term::Object(other)) => one == other,
+            (Term::Variable(variable), Term::Object(object)) => domain
+                .has_type(&problem.objects[object.index()], &variables[*variable as usize].types),
+            _ => true,
+        };
+    let lost = |literal: &crate::normal::Literal| {
+        let atom = &literal.atom;
+        let derived =
+            normal.predicates[atom.predicate.index()].kind == crate::normal::Kind::Derived;
+        let arguments = atom.arguments.iter().map(|term| match term {
+            Term::Object(object) => Some(*object),
+            Term::Variable(_) => None,
+        });
+        let Some(arguments) = arguments.collect::<Option<Vec<ObjectId>>>() else { return false };
+        let fact = Fact { predicate: atom.predicate, arguments: arguments.into() };
+        if derived || problem.init.contains(&fact) == literal.positive {
+            return false;
+        }
+        !normal.schemas.iter().any(|schema| {
+            schema.effects.iter().any(|effect| {
+                let made = &effect.literal.atom;
+                let mut pairs = made.arguments.iter().zip(&atom.arguments);
+                effect.literal.positive == literal.positive
+                    && made.predicate == atom.predicate
+                    && pairs.all(|(term, object)| fits(term, object, &schema.variables))
+            })
+        })
+    };
+    Ok(!policy.goal && normal.goal.literals.iter().any(lost))
 }
 
 /// What is known from the stages so far.
@@ -212,6 +257,8 @@ struct Run<'a> {
     best: Option<(Found, Vec<Fact>)>,
     /// What the actions keep, of all stages.
     invariants: Option<Vec<Candidate>>,
+    /// Whether the last stage left nothing out, so that there is no more to find.
+    exhausted: bool,
 }
 
 /// What the actions keep, by the first stage that can be opened.
@@ -220,14 +267,17 @@ fn known(domain: &Domain, open: &Open, limits: &Limits) -> Vec<Candidate> {
 }
 
 impl Run<'_> {
-    /// Opens what costs `most` at most and looks for excuses that cost less than `next`; the outcome, if that settles it.
-    fn stage(&mut self, most: u32, next: Option<u32>) -> Result<Option<Outcome>, Unsupported> {
-        let (domain, limits) = (self.domain, self.limits);
-        let open = match Open::new(domain, self.problem, &self.question.policy, most, limits) {
+    /// Opens what a stage opens and looks for excuses within its bound; the outcome, if that settles it.
+    fn stage(&mut self, stage: Level) -> Result<Option<Outcome>, Unsupported> {
+        let Level { most, bound, last } = stage;
+        let (domain, limits, policy) = (self.domain, self.limits, &self.question.policy);
+        let open = match Open::new(domain, self.problem, policy, most, bound, limits) {
             Ok(open) => open,
             Err(Obstacle::Unsupported(unsupported)) => return Err(unsupported),
-            Err(Obstacle::Hopeless) => {
+            Err(Obstacle::Hopeless { narrow }) => {
                 self.unsolvable = true;
+                self.exhausted = last && !narrow;
+                self.bound = bound.saturating_add(1);
                 return Ok(None);
             }
             Err(Obstacle::Stopped(stop)) => return Ok(Some(self.end(Unfinished::Stopped(stop)))),
@@ -256,13 +306,15 @@ impl Run<'_> {
             limits,
         );
         let known = self.best.as_ref().map_or(u32::MAX, |(best, _)| best.cost);
-        let end = stage.run(next.map_or(u32::MAX, |next| next - 1).min(known))?;
+        // Where nothing was left out, the bound means nothing.
+        let whole = last && !open.narrow;
+        let end = stage.run(if whole { u32::MAX } else { bound }.min(known))?;
         let found = stage.take();
-        if let (End::Done, None, Some(_), None) = (&end, &found, next, &self.best) {
+        if let (End::Done, None, false, None) = (&end, &found, whole, &self.best) {
             stage.run_beyond()?;
         }
         let beyond = stage.take();
-        let (missing, bound) = (stage.missing(), stage.bound());
+        let (missing, reached) = (stage.missing(), stage.bound());
         self.unsolvable = stage.unsolvable;
         self.count(&stage, &open, &vocabulary);
         self.refuted = refuted;
@@ -273,14 +325,15 @@ impl Run<'_> {
                     // All that could be cheaper was looked at before.
                     return Ok(Some(self.excuses(found, missing, true)));
                 }
-                self.bound = self.bound.max(bound.unwrap_or(0));
+                self.bound = self.bound.max(reached.unwrap_or(0));
                 Some(self.end(Unfinished::Stopped(stop)))
             }
             End::Done => {
                 if let Some(found) = found {
                     return Ok(Some(self.excuses(found, missing, true)));
                 }
-                self.bound = next.unwrap_or(self.bound);
+                self.exhausted = whole;
+                self.bound = bound.saturating_add(1);
                 let better = |found: &Found| {
                     self.best.as_ref().is_none_or(|(best, _)| found.cost < best.cost)
                 };
@@ -320,12 +373,23 @@ impl Run<'_> {
     }
 }
 
-/// What may cost how much: each bound on what is opened, with the one that comes after it.
+/// What is opened at a time.
+#[derive(Debug, Clone, Copy)]
+struct Level {
+    /// What costs so much at most to change is open.
+    most: u32,
+    /// Excuses of this cost and less are found for sure.
+    bound: u32,
+    /// Whether everything is open.
+    last: bool,
+}
+
+/// The levels, in the order in which they are tried: each opens what costs a bit more; when all is open the bound doubles.
 fn stages(
     domain: &Domain,
     problem: &Problem,
     policy: &Policy,
-) -> Result<Vec<(u32, Option<u32>)>, Unsupported> {
+) -> Result<impl Iterator<Item = Level> + use<>, Unsupported> {
     let normal = crate::normalize::normalize(domain, problem)?;
     let price = |number: usize| {
         let changes = normal.predicates[number].kind != crate::normal::Kind::Static;
@@ -336,7 +400,16 @@ fn stages(
         costs.insert(policy.object_cost);
     }
     let costs: Vec<u32> = if costs.is_empty() { vec![1] } else { costs.into_iter().collect() };
-    Ok((0..costs.len()).map(|at| (costs[at], costs.get(at + 1).copied())).collect())
+    let dearest = costs[costs.len() - 1];
+    let first: Vec<Level> = costs
+        .windows(2)
+        .map(|pair| Level { most: pair[0], bound: pair[1] - 1, last: false })
+        .collect();
+    let doubled = (1..32).map(move |power| {
+        let bound = dearest.saturating_mul(1 << power).saturating_sub(1);
+        Level { most: dearest, bound, last: true }
+    });
+    Ok(first.into_iter().chain(doubled))
 }
 
 /// All that may be changed, said in facts of the problem.
@@ -374,10 +447,10 @@ pub fn catalogue(
     let mut invariants = None;
     let mut opened = None;
     let stages = stages(domain, problem, &policy).map_err(CatalogueError::Unsupported)?;
-    for bound in stages.into_iter().map(|(bound, _)| bound).take_while(|&bound| bound <= most) {
-        let open = match Open::new(domain, problem, &policy, bound, limits) {
+    for level in stages.take_while(|level| level.most <= most) {
+        let open = match Open::new(domain, problem, &policy, level.most, level.bound, limits) {
             Ok(open) => open,
-            Err(Obstacle::Hopeless) => continue,
+            Err(Obstacle::Hopeless { .. }) => continue,
             Err(Obstacle::Unsupported(unsupported)) => {
                 return Err(CatalogueError::Unsupported(unsupported));
             }
@@ -388,6 +461,9 @@ pub fn catalogue(
         };
         invariants.get_or_insert_with(|| known(domain, &open, limits));
         opened = Some(open);
+        if level.bound >= most {
+            break;
+        }
     }
     let (Some(open), Some(invariants)) = (opened, invariants) else { return Ok(None) };
     let vocabulary = Vocabulary::new(&open, domain, &invariants, &policy);

@@ -46,7 +46,9 @@ pub fn ground(
     normal: &Normal,
     limits: &Limits,
 ) -> Result<Outcome, Interrupted> {
-    let Some((mut grounded, exact)) = instantiate(domain, problem, normal, &[], limits)? else {
+    let shut = Open { facts: &[], prices: &[], purse: 0 };
+    let Some((mut grounded, exact, _)) = instantiate(domain, problem, normal, &shut, limits)?
+    else {
         return Ok(Outcome::Unsolvable);
     };
     if !simplify::simplify(&mut grounded, exact) {
@@ -55,10 +57,21 @@ pub fn ground(
     Ok(Outcome::Grounded(Box::new(grounded)))
 }
 
+/// Facts that may hold initially or not.
+#[derive(Debug, Clone, Copy)]
+pub struct Open<'a> {
+    /// The facts.
+    pub facts: &'a [Fact],
+    /// What a fact of each predicate costs that does not hold initially, for predicates that no action changes; nothing for those behind the last.
+    pub prices: &'a [u32],
+    /// Instances of actions and axioms whose conditions cost more are left out.
+    pub purse: u32,
+}
+
 /// Grounds `normal` as if each fact of `open` might hold initially or not: nothing that depends on them is left out. They stand among the facts of the
 /// result, which says of each fact whether it does hold initially. Facts that always or never hold are not taken out.
 ///
-/// `None` where the goal is out of reach even so.
+/// `None` where the goal is out of reach even so. The second part of the result says whether an instance was left out because its facts were too dear.
 ///
 /// # Errors
 /// Where it was, if the limits ended it.
@@ -66,20 +79,24 @@ pub fn ground_open(
     domain: &Domain,
     problem: &Problem,
     normal: &Normal,
-    open: &[Fact],
+    open: &Open<'_>,
     limits: &Limits,
-) -> Result<Option<Grounded>, Interrupted> {
-    Ok(instantiate(domain, problem, normal, open, limits)?.map(|(grounded, _)| grounded))
+) -> Result<(Option<Grounded>, bool), Interrupted> {
+    Ok(match instantiate(domain, problem, normal, open, limits)? {
+        Some((grounded, _, was_short)) => (Some(grounded), was_short),
+        None => (None, !open.prices.is_empty()),
+    })
 }
 
-/// The ground problem before anything is taken out, and whether everything in it is known to be reachable when deletes are ignored.
+/// The ground problem before anything is taken out; whether everything in it is known to be reachable when deletes are ignored; and whether an instance was
+/// too dear.
 fn instantiate(
     domain: &Domain,
     problem: &Problem,
     normal: &Normal,
-    open: &[Fact],
+    open: &Open<'_>,
     limits: &Limits,
-) -> Result<Option<(Grounded, bool)>, Interrupted> {
+) -> Result<Option<(Grounded, bool, bool)>, Interrupted> {
     let interrupted = |phase| move |stop| Interrupted { stop, phase };
     let world = world::World::new(domain, problem);
     let mut relations: Vec<Relation> =
@@ -97,8 +114,11 @@ fn instantiate(
     };
     insert(&problem.init, &mut relations);
     let initial: Vec<u32> = relations.iter().map(Relation::len).collect();
-    insert(open, &mut relations);
-    let mut reach = reach::reach(normal, &world, relations, limits)
+    for (relation, &price) in relations.iter_mut().zip(open.prices) {
+        relation.charge(price);
+    }
+    insert(open.facts, &mut relations);
+    let mut reach = reach::reach(normal, &world, relations, open.purse, limits)
         .map_err(interrupted("finding reachable facts"))?;
     let relations = std::mem::take(&mut reach.relations);
     let mut emission = emit::Emission::new(normal, problem, &world, limits, relations, &initial);
@@ -111,7 +131,7 @@ fn instantiate(
             || schema.effects.iter().any(|effect| universals(&effect.condition))
     }) || normal.rules.iter().any(|rule| universals(&rule.condition));
     let exact = !emission.dropped && !approximate;
-    Ok(reachable.then_some((grounded, exact)))
+    Ok(reachable.then_some((grounded, exact, reach.was_short)))
 }
 
 /// Takes out of a ground problem what always or never holds and what never applies, as [`ground`] does; false if the goal cannot be reached.

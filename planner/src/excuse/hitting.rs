@@ -61,6 +61,9 @@ pub struct Hitting<'a> {
     /// Which variables a node has decided, and with which edit; only while it is looked at.
     decided: Vec<u32>,
     forbidden: Vec<bool>,
+    /// What is left of the cost of each edit while a bound is computed, and for which computation that is.
+    rest: Vec<(u32, u32)>,
+    round: u32,
 }
 
 /// Lowest bound first; then what was tried less; then what has more edits; then what came last.
@@ -79,6 +82,8 @@ impl<'a> Hitting<'a> {
             most_edits,
             decided: vec![NONE; vocabulary.variables.len()],
             forbidden: vec![false; vocabulary.edits.len()],
+            rest: vec![(0, 0); vocabulary.edits.len()],
+            round: 0,
         }
     }
 
@@ -131,6 +136,35 @@ impl<'a> Hitting<'a> {
             }
         }
         (Next::Nothing, 0)
+    }
+
+    /// Adds edits to a set until it satisfies all clauses and breaks no group, the first that mends each; false if that leads nowhere.
+    pub fn complete(&mut self, chosen: &mut Vec<u32>) -> bool {
+        loop {
+            self.decide(chosen, true);
+            let found = self.look(chosen);
+            self.decide(chosen, false);
+            match found {
+                Look::Fine => return true,
+                Look::Dead => return false,
+                Look::Broken { branches, .. } => chosen.push(branches[0]),
+            }
+        }
+    }
+
+    fn decide(&mut self, chosen: &[u32], on: bool) {
+        for &edit in chosen {
+            let variable = self.vocabulary.edits[edit as usize].variable;
+            self.decided[variable as usize] = if on { edit } else { NONE };
+        }
+    }
+
+    /// Whether a set satisfies all clauses and breaks no group.
+    pub fn is_complete(&mut self, chosen: &[u32]) -> bool {
+        self.decide(chosen, true);
+        let found = self.look(chosen);
+        self.decide(chosen, false);
+        matches!(found, Look::Fine)
     }
 
     /// A lower bound on what any set costs that is still to be looked at.
@@ -287,33 +321,46 @@ impl<'a> Hitting<'a> {
     }
 
     /// What is wrong with a set, if anything, and what clauses that it breaks cost at least.
-    fn look(&self, chosen: &[u32]) -> Look {
+    fn look(&mut self, chosen: &[u32]) -> Look {
         let mut broken: Vec<Vec<u32>> = Vec::new();
         if let Some(ways) = self.broken_group(chosen) {
+            if ways.is_empty() {
+                return Look::Dead;
+            }
             broken.push(ways);
         }
+        let mut round = self.round;
         for clause in &self.clauses {
             if !self.satisfied(clause, chosen) {
                 let mut ways = Vec::new();
                 for &literal in &clause.literals {
                     self.ways(literal, &mut ways);
                 }
-                let mut seen = std::collections::HashSet::new();
-                ways.retain(|way| seen.insert(*way));
+                round += 1;
+                let rest = &mut self.rest;
+                ways.retain(|&way| std::mem::replace(&mut rest[way as usize].1, round) != round);
+                if ways.is_empty() {
+                    self.round = round;
+                    return Look::Dead;
+                }
                 broken.push(ways);
             }
         }
-        if broken.iter().any(Vec::is_empty) {
-            return Look::Dead;
-        }
+        self.round = round + 1;
         broken.sort_by_key(Vec::len);
-        let mut used = rustc_hash::FxHashSet::default();
+        // A clause takes from the cost of all its edits as much as all of them have left: what they took together is paid by any set that satisfies them all.
         let mut more = 0_u32;
         for ways in &broken {
-            if ways.iter().all(|way| !used.contains(way)) {
-                let cost = |way: &u32| self.vocabulary.edits[*way as usize].cost;
-                more = more.saturating_add(ways.iter().map(cost).min().unwrap_or(0));
-                used.extend(ways.iter().copied());
+            let left = |way: u32, rest: &[(u32, u32)]| match rest[way as usize] {
+                (rest, round) if round == self.round => rest,
+                _ => self.vocabulary.edits[way as usize].cost,
+            };
+            let share = ways.iter().map(|&way| left(way, &self.rest)).min().unwrap_or(0);
+            if share > 0 {
+                more = more.saturating_add(share);
+                for &way in ways {
+                    self.rest[way as usize] = (left(way, &self.rest) - share, self.round);
+                }
             }
         }
         match broken.into_iter().next() {

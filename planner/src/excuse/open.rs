@@ -43,6 +43,8 @@ pub struct Open {
     pub locked: Vec<bool>,
     /// For each predicate whether some effect changes it.
     pub changes: Vec<bool>,
+    /// Whether something was left out that takes more changes than the bound allows.
+    pub narrow: bool,
     /// Where objects that the problem does not have begin.
     first_new: u32,
 }
@@ -53,7 +55,10 @@ pub enum Obstacle {
     /// The planner does not plan this.
     Unsupported(Unsupported),
     /// The goal is out of reach whatever is changed.
-    Hopeless,
+    Hopeless {
+        /// Unless it takes more changes than the bound allows.
+        narrow: bool,
+    },
     /// There would be too many facts.
     Large,
     /// It was told to stop.
@@ -61,7 +66,8 @@ pub enum Obstacle {
 }
 
 impl Open {
-    /// Opens all predicates of which a change costs `most` at most, and lets new objects come into being where they cost no more than that.
+    /// Opens all predicates of which a change costs `most` at most, and lets new objects come into being where they cost no more than that. Actions that need
+    /// changes of what no action changes for more than `bound` are left out.
     ///
     /// # Errors
     /// Why that is not possible.
@@ -70,6 +76,7 @@ impl Open {
         problem: &Problem,
         policy: &Policy,
         most: u32,
+        bound: u32,
         limits: &Limits,
     ) -> Result<Self, Obstacle> {
         let closed = normalize::normalize(domain, problem).map_err(Obstacle::Unsupported)?;
@@ -111,11 +118,16 @@ impl Open {
         let normal =
             normalize::normalize_open(domain, &problem, &opened).map_err(Obstacle::Unsupported)?;
         let facts = facts(domain, &problem, &normal, &editable).ok_or(Obstacle::Large)?;
-        let grounded = match ground::ground_open(domain, &problem, &normal, &facts, limits) {
-            Ok(Some(grounded)) => grounded,
-            Ok(None) => return Err(Obstacle::Hopeless),
-            Err(Interrupted { stop, .. }) => return Err(Obstacle::Stopped(stop)),
-        };
+        // What some action changes may come about by itself, so that only what none changes has a price.
+        let charged = |number: usize| prices[number].filter(|_| !changes[number]).unwrap_or(0);
+        let charged: Vec<u32> = (0..prices.len()).map(charged).collect();
+        let choice = ground::Open { facts: &facts, prices: &charged, purse: bound };
+        let (grounded, narrow) =
+            match ground::ground_open(domain, &problem, &normal, &choice, limits) {
+                Ok((Some(grounded), narrow)) => (grounded, narrow),
+                Ok((None, narrow)) => return Err(Obstacle::Hopeless { narrow }),
+                Err(Interrupted { stop, .. }) => return Err(Obstacle::Stopped(stop)),
+            };
         let mut initial = grounded.initial.clone();
         initial.resize(initial.len() + objects.len(), false);
         let mut locked: Vec<bool> =
@@ -138,6 +150,7 @@ impl Open {
             editable,
             locked,
             changes,
+            narrow,
             first_new,
         })
     }

@@ -134,12 +134,18 @@ impl<'a> Trials<'a> {
     ) -> Result<Self, Unsupported> {
         let policy = Policy { objects: 0, ..policy.clone() };
         let mut opened = None;
-        for (most, _) in stages(domain, problem, &policy)?.into_iter().filter(|one| one.0 < KIND) {
-            match Open::new(domain, problem, &policy, most, limits) {
+        for level in stages(domain, problem, &policy)? {
+            if level.most >= KIND {
+                break;
+            }
+            match Open::new(domain, problem, &policy, level.most, level.bound, limits) {
                 Ok(open) => opened = Some(open),
                 Err(Obstacle::Unsupported(unsupported)) => return Err(unsupported),
-                Err(Obstacle::Hopeless) => {}
+                Err(Obstacle::Hopeless { .. }) => {}
                 Err(_) => break,
+            }
+            if level.last {
+                break;
             }
         }
         let mut trials = Self {

@@ -167,16 +167,58 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// Goes on for one excuse, whatever it costs, but not for long.
+    /// Goes on for one excuse, whatever it costs, but not for long: adds whatever mends what is wrong until there is a plan, then leaves out what is not
+    /// needed.
     pub fn run_beyond(&mut self) -> Result<(), Unsupported> {
-        let most = self.tried + TRIES_BEYOND;
-        while self.excuses.is_empty() && self.tried < most {
-            if self.step(u32::MAX)?.is_some() {
+        let mut edits = Vec::new();
+        for _ in 0..TRIES_BEYOND {
+            if self.limits.stopped().is_some() || !self.hitting.complete(&mut edits) {
+                return Ok(());
+            }
+            if self.is_excuse(&edits)? {
                 break;
             }
         }
-        self.complete = false;
+        let mut kept = edits.clone();
+        for edit in edits {
+            let fewer: Vec<u32> = kept.iter().copied().filter(|&one| one != edit).collect();
+            if self.limits.stopped().is_none()
+                && self.hitting.is_complete(&fewer)
+                && self.is_excuse(&fewer)?
+            {
+                kept = fewer;
+            }
+        }
+        self.excuses.clear();
+        if self.is_excuse(&kept)? {
+            self.complete = false;
+        }
         Ok(())
+    }
+
+    /// Tries a set of edits and learns from it; whether it is an excuse, which is kept then.
+    fn is_excuse(&mut self, edits: &[u32]) -> Result<bool, Unsupported> {
+        let mut edits = edits.to_vec();
+        edits.sort_unstable();
+        let state = self.vocabulary.state(self.open, &edits);
+        if self.cut(&state) != Ok(false) {
+            return Ok(false);
+        }
+        self.tried += 1;
+        match self.judge(&edits, &state, 0)? {
+            Verdict::Plan(problem, plan) if !edits.is_empty() => {
+                self.excuses.clear();
+                self.keep(&edits, *problem, plan);
+                Ok(true)
+            }
+            Verdict::Ruled(variables) => {
+                let clause = self.differs(&edits, &variables);
+                self.hitting.demand(clause);
+                self.nogoods += 1;
+                Ok(false)
+            }
+            _ => Ok(false),
+        }
     }
 
     /// Looks at the next set of edits; says how the stage ends, if it does.

@@ -12,7 +12,7 @@ use crate::normal::{
 };
 use crate::normalize::scaled;
 
-use super::join::{Body, Join, Plan, key_of, plan};
+use super::join::{Body, Join, Plan, Purse, key_of, plan};
 use super::reach::{Reach, rows};
 use super::relation::Relation;
 use super::world::World;
@@ -384,6 +384,7 @@ impl<'a> Emission<'a> {
             limits: self.limits,
             binding,
             steps: &mut self.steps,
+            purse: &mut Purse::new(u32::MAX),
         }
         .run(found)
     }

@@ -290,6 +290,50 @@ pub struct Join<'a> {
     pub binding: &'a mut [u32],
     /// Steps since the last look at the limits.
     pub steps: &'a mut u32,
+    /// What rows with a price may be matched with.
+    pub purse: &'a mut Purse,
+}
+
+/// What a match may spend on rows that have a price. A row is paid for once, however many atoms it matches.
+#[derive(Debug)]
+pub struct Purse {
+    /// What is left.
+    left: u32,
+    /// What is paid for, by relation and row.
+    paid: Vec<(u32, u32)>,
+    /// Whether a row was ever too dear.
+    pub was_short: bool,
+}
+
+impl Purse {
+    /// A purse with so much in it.
+    pub fn new(left: u32) -> Self {
+        Self { left, paid: Vec::new(), was_short: false }
+    }
+
+    /// Pays for a row; what to give back when it is matched no longer, or nothing if it is too dear.
+    #[inline]
+    fn pay(&mut self, relation: &Relation, predicate: u32, row: u32) -> Option<u32> {
+        let price = relation.price(row);
+        if price == 0 || self.paid.contains(&(predicate, row)) {
+            return Some(0);
+        }
+        if price > self.left {
+            self.was_short = true;
+            return None;
+        }
+        self.left -= price;
+        self.paid.push((predicate, row));
+        Some(price)
+    }
+
+    #[inline]
+    fn take_back(&mut self, price: u32) {
+        if price > 0 {
+            self.left += price;
+            self.paid.pop();
+        }
+    }
 }
 
 impl Join<'_> {
@@ -297,6 +341,18 @@ impl Join<'_> {
     pub fn run(&mut self, found: &mut impl FnMut(&[u32])) -> bool {
         let plan = self.plan;
         !self.pass(&plan.checks) || self.step(0, found)
+    }
+
+    /// As [`Join::run`], where `atom` is matched with `row`.
+    pub fn run_from(&mut self, atom: usize, row: u32, found: &mut impl FnMut(&[u32])) -> bool {
+        let predicate = self.body.atoms[atom].predicate;
+        let relations = self.relations;
+        let Some(price) = self.purse.pay(&relations[predicate.index()], predicate.0, row) else {
+            return true;
+        };
+        let finished = self.run(found);
+        self.purse.take_back(price);
+        finished
     }
 
     /// Binds the variables of `atom` to a row of its relation; false if it does not fit.
@@ -351,7 +407,11 @@ impl Join<'_> {
                     Some(row)
                         if row < relation.visible() && !(*exclude && row == self.excluded) =>
                     {
-                        !self.pass(&step.checks) || self.step(depth + 1, found)
+                        let price = self.purse.pay(relation, atom.predicate.0, row);
+                        let Some(price) = price else { return true };
+                        let finished = !self.pass(&step.checks) || self.step(depth + 1, found);
+                        self.purse.take_back(price);
+                        finished
                     }
                     _ => true,
                 }
@@ -399,9 +459,13 @@ impl Join<'_> {
                     if fits
                         && self.bind(values, binds, repeats)
                         && self.pass(&step.checks)
-                        && !self.step(depth + 1, found)
+                        && let Some(price) = self.purse.pay(relation, atom.predicate.0, row)
                     {
-                        return false;
+                        let finished = self.step(depth + 1, found);
+                        self.purse.take_back(price);
+                        if !finished {
+                            return false;
+                        }
                     }
                     row = match index {
                         Some(index) => relation.next(*index, row),

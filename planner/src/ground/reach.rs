@@ -8,7 +8,7 @@ use crate::limits::{Limits, Stop};
 use crate::normal::{Atom, Condition, Effect, Filter, Normal, Term, Variable};
 use crate::normalize::{negate, static_condition};
 
-use super::join::{Body, Join, Plan, key_of, plan};
+use super::join::{Body, Join, Plan, Purse, key_of, plan};
 use super::relation::Relation;
 use super::world::World;
 
@@ -27,6 +27,8 @@ pub struct Reach {
     pub derivations: Vec<Vec<u32>>,
     /// How many instances each axiom has.
     pub derivation_counts: Vec<u32>,
+    /// Whether an instance was left out because its facts were too dear.
+    pub was_short: bool,
 }
 
 /// What a match of a body is good for.
@@ -68,9 +70,10 @@ struct Fixpoint<'a> {
     queue: Vec<u32>,
     steps: u32,
     published: u32,
+    purse: Purse,
 }
 
-/// Computes the fixpoint from the static and initial facts that `relations` knows.
+/// Computes the fixpoint from the static and initial facts that `relations` knows. An instance whose facts cost more than `purse` is left out.
 ///
 /// # Errors
 /// Why it was stopped, if it was.
@@ -78,10 +81,13 @@ pub fn reach(
     normal: &Normal,
     world: &World,
     relations: Vec<Relation>,
+    purse: u32,
     limits: &Limits,
 ) -> Result<Reach, Stop> {
     let mut fixpoint = Fixpoint::new(normal, world, relations, limits);
+    fixpoint.purse = Purse::new(purse);
     fixpoint.run()?;
+    fixpoint.reach.was_short = fixpoint.purse.was_short;
     Ok(fixpoint.reach)
 }
 
@@ -101,6 +107,7 @@ impl<'a> Fixpoint<'a> {
                 counts: vec![0; normal.schemas.len()],
                 derivations: vec![Vec::new(); normal.rules.len()],
                 derivation_counts: vec![0; normal.rules.len()],
+                was_short: false,
             },
             programs: Vec::new(),
             triggers: Vec::new(),
@@ -109,6 +116,7 @@ impl<'a> Fixpoint<'a> {
             queue: Vec::new(),
             steps: 0,
             published: 0,
+            purse: Purse::new(0),
         };
         for (number, schema) in normal.schemas.iter().enumerate() {
             let matched: Vec<u32> = (0..schema.bound as u32).collect();
@@ -267,16 +275,20 @@ impl<'a> Fixpoint<'a> {
             limits: self.limits,
             binding: &mut binding,
             steps: &mut self.steps,
+            purse: &mut self.purse,
         };
-        if atom < program.body.atoms.len() && !join.unify(atom, row) {
+        let delta = atom < program.body.atoms.len();
+        if delta && !join.unify(atom, row) {
             return Ok(());
         }
         let mut matches = Matches { values: Vec::new(), count: 0 };
         let matched = &program.body.matched;
-        let finished = join.run(&mut |binding| {
+        let mut found = |binding: &[u32]| {
             matches.values.extend(matched.iter().map(|&variable| binding[variable as usize]));
             matches.count += 1;
-        });
+        };
+        let finished =
+            if delta { join.run_from(atom, row, &mut found) } else { join.run(&mut found) };
         if !finished {
             return Err(self.limits.stopped().expect("a join ends early only when it is stopped"));
         }

@@ -16,6 +16,9 @@ pub struct Relation {
     rows: Vec<u32>,
     len: u32,
     visible: u32,
+    /// What a row costs that is not among the first `free` ones.
+    price: u32,
+    free: u32,
     set: HashTable<u32>,
     indexes: Vec<Index>,
     /// Distinct values of each column, and the number of visible rows when they were counted.
@@ -70,6 +73,17 @@ impl Relation {
     /// An empty relation with `arity` columns.
     pub fn new(arity: usize) -> Self {
         Self { arity, ..Self::default() }
+    }
+
+    /// Sets what every row costs that is inserted from now on; those before it are free, as all are unless this is said.
+    pub fn charge(&mut self, price: u32) {
+        (self.price, self.free) = (price, self.len);
+    }
+
+    /// What a row costs.
+    #[inline]
+    pub fn price(&self, row: u32) -> u32 {
+        if row < self.free { 0 } else { self.price }
     }
 
     /// How many rows are known.
