@@ -283,7 +283,7 @@ impl Run<'_> {
             Err(Obstacle::Stopped(stop)) => return Ok(Some(self.end(Unfinished::Stopped(stop)))),
             Err(Obstacle::Large) => {
                 let answer = solve(domain, self.problem, false, u64::MAX, limits)?;
-                self.unsolvable |= answer == Answer::Unsolvable;
+                self.unsolvable |= matches!(answer, Answer::Unsolvable(_));
                 return Ok(Some(match answer {
                     Answer::Plan(plan) => Outcome::Solvable(plan),
                     _ => self.end(Unfinished::Large),

@@ -59,8 +59,8 @@ pub fn prepare(domain: &Domain, problem: &Problem, limits: &Limits) -> Result<Pr
 pub enum Answer {
     /// There is a plan: the best that was found.
     Plan(Plan),
-    /// There is none.
-    Unsolvable,
+    /// There is none, and so much work it was to know that.
+    Unsolvable(u64),
     /// None was found within the budget.
     Spent,
     /// None was found before the run was told to stop.
@@ -81,7 +81,7 @@ pub fn solve(
     let prepared = match prepare(domain, problem, limits) {
         Ok(prepared) => prepared,
         Err(Obstacle::Unsupported(unsupported)) => return Err(unsupported),
-        Err(Obstacle::Unreachable) => return Ok(Answer::Unsolvable),
+        Err(Obstacle::Unreachable) => return Ok(Answer::Unsolvable(0)),
         Err(Obstacle::Stopped(stop, _)) => return Ok(Answer::Stopped(stop)),
     };
     let config = Config { anytime: better, ..Config::default() };
@@ -93,7 +93,9 @@ pub fn solve(
         (Some(operators), _) => {
             Answer::Plan(prepared.encoded.decoder(prepared.grounded).plan(&operators))
         }
-        (None, Status::Unsolvable) => Answer::Unsolvable,
+        (None, Status::Unsolvable) => {
+            Answer::Unsolvable(end.statistics.expanded * (task.operators.len() as u64 + 1))
+        }
         (None, Status::Stopped(stop)) => Answer::Stopped(stop),
         (None, _) => Answer::Spent,
     })

@@ -158,7 +158,7 @@ impl Map<'_> {
         let answer = solve(self.domain, &problem, false, EFFORT, self.limits)?;
         Ok(match answer {
             Answer::Plan(_) => Some(true),
-            Answer::Unsolvable => Some(false),
+            Answer::Unsolvable(_) => Some(false),
             Answer::Spent | Answer::Stopped(_) => None,
         })
     }

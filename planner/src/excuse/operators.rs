@@ -82,7 +82,7 @@ pub fn missing(
             let (changed, extended) = trials.world(&set);
             match solve(&changed, &extended, true, EFFORT, limits)? {
                 Answer::Plan(plan) => found.push(trials.read(&set, &changed, &extended, &plan)),
-                Answer::Unsolvable => {}
+                Answer::Unsolvable(_) => {}
                 Answer::Spent | Answer::Stopped(_) => refuted = false,
             }
         }

@@ -1,13 +1,19 @@
 //! A changed initial state goes in whose goal the delete relaxation reaches; a plan or a proof that there is none comes out, and with the proof the few
 //! variables that it looked at: whatever else is changed, there is no plan as long as these have their values.
 //!
+//! What was proven for one state is then proven for as many as possible: facts that no condition asks to be false never hurt, so they are added to the state as
+//! long as there is still no plan, and only what is left out after that can help.
+//!
 //! Counterexample-guided abstraction (Seipp and Helmert, ICAPS 2013, with projections): only some facts are tracked. A plan that does not care about
 //! the others is tried out; where it fails, the facts that it failed on are tracked, too.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::open::Open;
+use super::relaxed::number;
 use super::vocabulary::{NONE, Vocabulary};
+use lang::model::{ActionId, ObjectId, PredicateId};
+
 use crate::encode;
 use crate::ground;
 use crate::grounded::{Axiom, Effect, FactId, Grounded, Literal, Operator};
@@ -19,7 +25,7 @@ use crate::search::{self, Config, Status};
 pub enum Verdict {
     /// There is a plan.
     Solvable,
-    /// There is none while these variables have the values that they have.
+    /// There is none unless one of these literals holds ([`number`]).
     Unsolvable(Vec<u32>),
     /// It is not known yet.
     Spent,
@@ -54,7 +60,7 @@ impl Tracked<'_> {
         literals.iter().copied().filter(|literal| self.is[literal.fact.index()])
     }
 
-    fn own(&self, operator: &Operator) -> &[lang::model::ObjectId] {
+    fn own(&self, operator: &Operator) -> &[ObjectId] {
         let range = operator.arguments.start as usize..operator.arguments.end as usize;
         &self.open.grounded.arguments[range]
     }
@@ -88,58 +94,158 @@ impl Conditions {
     }
 }
 
-/// Looks for a plan or a proof from `state`, the facts that hold, with as much work as `budget`.
-pub fn decide(
-    open: &Open,
-    vocabulary: &Vocabulary,
-    state: &[bool],
-    budget: u64,
-    limits: &Limits,
-) -> Verdict {
-    let conditions = Conditions::new(&open.grounded);
-    let mut tracked = Tracked { open, vocabulary, is: vec![false; open.count()] };
-    let mut work = 0;
+/// Which facts help whenever they hold: no condition asks for them to be false, and nothing is lost because of them.
+pub fn helpful(grounded: &Grounded) -> Vec<bool> {
+    let mut helps = vec![true; grounded.facts.len()];
+    let slice =
+        |range: &std::ops::Range<u32>| &grounded.literals[range.start as usize..range.end as usize];
+    let conditions = grounded
+        .operators
+        .iter()
+        .map(|operator| &operator.precondition)
+        .chain(grounded.effects.iter().map(|effect| &effect.conditions))
+        .chain(grounded.axioms.iter().map(|axiom| &axiom.conditions));
+    let asked = conditions.flat_map(slice).chain(&grounded.goal);
+    for literal in asked.filter(|literal| !literal.positive) {
+        helps[literal.fact.index()] = false;
+    }
+    for effect in grounded.effects.iter().filter(|effect| !effect.literal.positive) {
+        for literal in slice(&effect.conditions) {
+            helps[literal.fact.index()] = false;
+        }
+    }
+    // What makes a fact true that may hurt may hurt, too, if it is derived.
     loop {
-        if let Some(stop) = limits.stopped() {
-            return Verdict::Stopped(stop);
-        }
-        let (projected, origins) = project(&tracked, state);
-        work += projected.effects.len() as u64 + 1;
-        let plan = match plan(projected, &origins, &tracked, budget.saturating_sub(work), limits) {
-            Planned::Steps(steps, spent) => {
-                work += spent;
-                steps
+        let mut changed = false;
+        for axiom in &grounded.axioms {
+            if !helps[axiom.head.index()] {
+                for literal in slice(&axiom.conditions) {
+                    changed |= std::mem::replace(&mut helps[literal.fact.index()], false);
+                }
             }
-            Planned::Nothing => return Verdict::Unsolvable(variables(&tracked)),
-            Planned::Spent => return Verdict::Spent,
-            Planned::Stopped(stop) => return Verdict::Stopped(stop),
-        };
-        let missing = failure(&tracked, state, &plan);
-        if missing.is_empty() {
-            return Verdict::Solvable;
         }
-        for fact in missing {
-            tracked.add(fact, &conditions);
-        }
-        if work > budget {
-            return Verdict::Spent;
+        if !changed {
+            return helps;
         }
     }
 }
 
-/// The variables that are tracked and can be changed. Which new objects there are always counts.
-fn variables(tracked: &Tracked<'_>) -> Vec<u32> {
-    let all = tracked.vocabulary.variables.iter().enumerate();
-    let facts = tracked.open.grounded.facts.len();
-    let looked_at = all.filter(|(_, variable)| {
-        !variable.edits.is_empty()
-            && variable.facts.iter().any(|fact| fact.index() >= facts || tracked.is[fact.index()])
-    });
-    looked_at.map(|(number, _)| number as u32).collect()
+/// How often a proof is tried to be made to say more, and how much of the work for a proof each try gets.
+const TRIES: usize = 12;
+const SHARE: u64 = 2;
+
+/// Looks for a plan or a proof from `state`, the facts that hold, with as much work as `budget`. `helps` is [`helpful`].
+pub fn decide(
+    open: &Open,
+    vocabulary: &Vocabulary,
+    helps: &[bool],
+    state: &[bool],
+    budget: u64,
+    limits: &Limits,
+) -> Verdict {
+    let search = Search { open, vocabulary, conditions: Conditions::new(&open.grounded), limits };
+    let mut proof = match search.prove(state, budget) {
+        Ok(proof) => proof,
+        Err(verdict) => return verdict,
+    };
+    let mut full = state.to_vec();
+    // What can be made true, helps, and is looked at by the proof: all of it at once, then in smaller and smaller parts.
+    let candidates: Vec<usize> = (0..helps.len())
+        .filter(|&fact| {
+            helps[fact] && vocabulary.makers[fact] != NONE && !full[fact] && proof[fact]
+        })
+        .collect();
+    let mut parts = vec![candidates];
+    let mut tries = 0;
+    while let Some(part) = parts.pop() {
+        if part.is_empty() || tries == TRIES {
+            continue;
+        }
+        tries += 1;
+        let mut more = full.clone();
+        for &fact in &part {
+            more[fact] = true;
+        }
+        if let Ok(larger) = search.prove(&more, budget / SHARE) {
+            (full, proof) = (more, larger);
+        } else if part.len() > 1 {
+            let (left, right) = part.split_at(part.len() / 2);
+            parts.extend([right.to_vec(), left.to_vec()]);
+        }
+    }
+    Verdict::Unsolvable(clause(open, vocabulary, helps, &full, &proof))
 }
 
-/// The problem in which nothing but the tracked facts exists, and the operator behind each of its operators. Operators that come to the same are one.
-fn project(tracked: &Tracked<'_>, state: &[bool]) -> (Grounded, Vec<u32>) {
+/// What would have to hold for the proof not to apply.
+fn clause(
+    open: &Open,
+    vocabulary: &Vocabulary,
+    helps: &[bool],
+    state: &[bool],
+    proof: &[bool],
+) -> Vec<u32> {
+    let facts = open.grounded.facts.len();
+    let mut literals = Vec::new();
+    for fact in 0..open.count() {
+        // Which new objects there are always counts.
+        let counts = fact >= facts || proof[fact];
+        if vocabulary.homes[fact] == NONE || !counts {
+            continue;
+        }
+        if !state[fact] {
+            literals.push(number(FactId(fact as u32), true));
+        } else if fact < facts && !helps[fact] {
+            literals.push(number(FactId(fact as u32), false));
+        }
+    }
+    literals
+}
+
+struct Search<'a> {
+    open: &'a Open,
+    vocabulary: &'a Vocabulary,
+    conditions: Conditions,
+    limits: &'a Limits,
+}
+
+impl Search<'_> {
+    /// The facts that a proof looks at; or what came out instead.
+    fn prove(&self, state: &[bool], budget: u64) -> Result<Vec<bool>, Verdict> {
+        let (open, vocabulary, limits) = (self.open, self.vocabulary, self.limits);
+        let mut tracked = Tracked { open, vocabulary, is: vec![false; open.count()] };
+        let mut work = 0;
+        loop {
+            if let Some(stop) = limits.stopped() {
+                return Err(Verdict::Stopped(stop));
+            }
+            let projected = project(&tracked, state);
+            work += projected.effects.len() as u64 + 1;
+            let left = budget.saturating_sub(work);
+            let plan = match plan(projected, &tracked, left, limits) {
+                Planned::Steps(steps, spent) => {
+                    work += spent;
+                    steps
+                }
+                Planned::Nothing => return Ok(tracked.is),
+                Planned::Spent => return Err(Verdict::Spent),
+                Planned::Stopped(stop) => return Err(Verdict::Stopped(stop)),
+            };
+            let missing = failure(&tracked, state, &plan);
+            if missing.is_empty() {
+                return Err(Verdict::Solvable);
+            }
+            for fact in missing {
+                tracked.add(fact, &self.conditions);
+            }
+            if work > budget {
+                return Err(Verdict::Spent);
+            }
+        }
+    }
+}
+
+/// The problem in which nothing but the tracked facts exists. Operators that come to the same are one; the action of each is the number of one that it stands for.
+fn project(tracked: &Tracked<'_>, state: &[bool]) -> Grounded {
     let open = tracked.open;
     let from = &open.grounded;
     let mut new = vec![NONE; from.facts.len()];
@@ -154,7 +260,6 @@ fn project(tracked: &Tracked<'_>, state: &[bool]) -> (Grounded, Vec<u32>) {
     let rename = |literal: Literal| Literal { fact: FactId(new[literal.fact.index()]), ..literal };
     let slice =
         |range: &std::ops::Range<u32>| &from.literals[range.start as usize..range.end as usize];
-    let mut origins = Vec::new();
     let mut seen: FxHashSet<(Vec<Literal>, Vec<(Vec<Literal>, Literal)>)> = FxHashSet::default();
     for (number, operator) in from.operators.iter().enumerate() {
         let own = tracked.own(operator);
@@ -193,9 +298,10 @@ fn project(tracked: &Tracked<'_>, state: &[bool]) -> (Grounded, Vec<u32>) {
             precondition: before,
             effects: start..to.effects.len() as u32,
             cost: 1,
+            // By this it is known again, whatever else becomes of it.
+            action: ActionId(number as u32),
             ..operator.clone()
         });
-        origins.push(number as u32);
     }
     for axiom in from.axioms.iter().filter(|axiom| tracked.is[axiom.head.index()]) {
         let own = open.arguments(axiom.head);
@@ -206,7 +312,7 @@ fn project(tracked: &Tracked<'_>, state: &[bool]) -> (Grounded, Vec<u32>) {
     }
     let goal: Vec<Literal> = open.demanded(&from.goal, &[]).collect();
     to.goal = tracked.all(&goal).map(rename).collect();
-    (to, origins)
+    to
 }
 
 fn push(pool: &mut Vec<Literal>, literals: Vec<Literal>) -> std::ops::Range<u32> {
@@ -224,23 +330,7 @@ enum Planned {
 }
 
 /// Plans in a projection.
-fn plan(
-    mut projected: Grounded,
-    origins: &[u32],
-    tracked: &Tracked<'_>,
-    budget: u64,
-    limits: &Limits,
-) -> Planned {
-    // Operators are known again by where their arguments begin, which is where those behind them do.
-    let behind: FxHashMap<(u32, u32), Vec<u32>> = {
-        let mut behind: FxHashMap<(u32, u32), Vec<u32>> = FxHashMap::default();
-        for &origin in origins {
-            let operator = &tracked.open.grounded.operators[origin as usize];
-            let key = (operator.action.0, operator.arguments.start);
-            behind.entry(key).or_default().push(origin);
-        }
-        behind
-    };
+fn plan(mut projected: Grounded, tracked: &Tracked<'_>, budget: u64, limits: &Limits) -> Planned {
     if projected.goal.is_empty() {
         return Planned::Steps(Vec::new(), 0);
     }
@@ -262,8 +352,7 @@ fn plan(
     match (found, outcome.status) {
         (Some(steps), _) => {
             let origin = |step: &crate::task::OperatorId| {
-                let operator = &projected.operators[encoded.origins[step.index()] as usize];
-                behind[&(operator.action.0, operator.arguments.start)][0]
+                projected.operators[encoded.origins[step.index()] as usize].action.0
             };
             Planned::Steps(steps.iter().map(origin).collect(), spent)
         }
@@ -273,10 +362,9 @@ fn plan(
     }
 }
 
-/// The groups of which at most one fact holds in the projection, too: one operator adds one fact at most, and needs another, which it deletes.
+/// The groups of which at most one fact holds in the projection, too: at most one does initially, and an operator adds one at most and needs another, which it deletes.
 fn inductive(projected: &Grounded, tracked: &Tracked<'_>) -> Vec<Vec<FactId>> {
-    let mut numbers: FxHashMap<(lang::model::PredicateId, &[lang::model::ObjectId]), u32> =
-        FxHashMap::default();
+    let mut numbers: FxHashMap<(PredicateId, &[ObjectId]), u32> = FxHashMap::default();
     for (number, fact) in projected.facts.iter().enumerate() {
         let range = fact.arguments.start as usize..fact.arguments.end as usize;
         numbers.insert((fact.predicate, &projected.arguments[range]), number as u32);
@@ -295,7 +383,8 @@ fn inductive(projected: &Grounded, tracked: &Tracked<'_>) -> Vec<Vec<FactId>> {
                 numbers.get(&(ground.predicate, open.arguments(fact))).map(|&number| FactId(number))
             })
             .collect();
-        if members.len() > 1 {
+        let holding = members.iter().filter(|fact| projected.initial[fact.index()]).count();
+        if members.len() > 1 && holding <= 1 {
             groups.push(members);
         }
     }

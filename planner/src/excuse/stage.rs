@@ -21,6 +21,12 @@ use crate::solve::{Answer, solve};
 const EFFORT: u64 = 4_000_000;
 const GROWTH: u64 = 8;
 
+/// How much work a proof that says more gets in any case.
+const GENERAL: u64 = 200_000;
+
+/// So many sets are tried for excuses that cost as little as one that is known, unless all are wanted.
+const TIES: usize = 100;
+
 /// How often a set is tried that can be no cheaper than an excuse that is known.
 const TRIES_OF_TIES: u32 = 2;
 
@@ -53,7 +59,7 @@ pub enum End {
 #[derive(Debug)]
 enum Verdict {
     Plan(Box<Problem>, Plan),
-    /// These clauses rule it out, and perhaps others.
+    /// It is ruled out, and perhaps others: one of these literals has to hold.
     Ruled(Vec<u32>),
     Undecided,
     Stopped(Stop),
@@ -78,12 +84,16 @@ pub struct Stage<'a> {
     /// Which facts some operator makes true, and which are in reach initially if nothing is ever lost.
     made: Vec<bool>,
     in_reach: Vec<bool>,
+    /// Which facts never hurt.
+    helps: Vec<bool>,
     excuses: Vec<Excuse>,
     complete: bool,
     /// Cores from delete relaxation, nogoods from failed searches, sets that were tried by search.
     pub cores: usize,
     pub nogoods: usize,
     pub tried: usize,
+    /// Where the look for ties ends.
+    last_tried: usize,
 }
 
 impl<'a> Stage<'a> {
@@ -141,11 +151,13 @@ impl<'a> Stage<'a> {
             refuted,
             made,
             in_reach,
+            helps: project::helpful(&open.grounded),
             excuses: Vec::new(),
             complete: true,
             cores: 0,
             nogoods: 0,
             tried: 0,
+            last_tried: usize::MAX,
         }
     }
 
@@ -211,8 +223,7 @@ impl<'a> Stage<'a> {
                 self.keep(&edits, *problem, plan);
                 Ok(true)
             }
-            Verdict::Ruled(variables) => {
-                let clause = self.differs(&edits, &variables);
+            Verdict::Ruled(clause) => {
                 self.hitting.demand(clause);
                 self.nogoods += 1;
                 Ok(false)
@@ -236,7 +247,10 @@ impl<'a> Stage<'a> {
                 return Ok(Some(End::Stopped(stop)));
             }
         };
-        if self.excuses.len() >= self.question.most_excuses {
+        let known = self.excuses.len();
+        let tired =
+            known > 0 && self.tried >= self.last_tried && self.question.most_excuses != usize::MAX;
+        if known >= self.question.most_excuses || tired {
             self.complete = false;
             return Ok(Some(End::Done));
         }
@@ -260,10 +274,12 @@ impl<'a> Stage<'a> {
         let cost = self.cost(edits);
         match verdict {
             Verdict::Plan(_, plan) if edits.is_empty() => return Some(End::Solvable(plan)),
-            Verdict::Plan(problem, plan) => self.keep(edits, *problem, plan),
-            Verdict::Ruled(variables) => {
+            Verdict::Plan(problem, plan) => {
+                self.keep(edits, *problem, plan);
+                self.last_tried = self.last_tried.min(self.tried + TIES);
+            }
+            Verdict::Ruled(clause) => {
                 self.unsolvable |= edits.is_empty();
-                let clause = self.differs(edits, &variables);
                 self.nogoods += 1;
                 self.hitting.demand(clause);
                 self.hitting.postpone(node, cost, tried, edits.len());
@@ -313,29 +329,13 @@ impl<'a> Stage<'a> {
         Ok(cut)
     }
 
-    /// That one of these variables has another value than after `edits`.
-    fn differs(&self, edits: &[u32], variables: &[u32]) -> Vec<u32> {
-        let mut clause = Vec::new();
-        for &variable in variables {
-            let edit = edits
-                .iter()
-                .find(|&&edit| self.vocabulary.edits[edit as usize].variable == variable);
-            let initial = self.vocabulary.variables[variable as usize].initial;
-            let value = match edit {
-                Some(&edit) => self.vocabulary.edits[edit as usize].to,
-                None => initial,
-            };
-            match value {
-                Some(fact) => clause.push(number(fact, false)),
-                None => clause.extend(
-                    self.vocabulary.variables[variable as usize]
-                        .facts
-                        .iter()
-                        .map(|&fact| number(fact, true)),
-                ),
-            }
-        }
-        clause
+    /// That something is otherwise than after `edits`.
+    fn differs(&self, edits: &[u32]) -> Vec<u32> {
+        let state = self.vocabulary.state(self.open, edits);
+        let changeable =
+            self.vocabulary.variables.iter().filter(|variable| !variable.edits.is_empty());
+        let facts = changeable.flat_map(|variable| &variable.facts);
+        facts.map(|&fact| number(fact, !state[fact.index()])).collect()
     }
 
     /// What some edits make false and true.
@@ -354,34 +354,34 @@ impl<'a> Stage<'a> {
     fn judge(&mut self, edits: &[u32], state: &[bool], tried: u32) -> Result<Verdict, Unsupported> {
         let (changed, _) = self.changed(edits);
         let budget = EFFORT.saturating_mul(GROWTH.saturating_pow(tried));
-        let everything: Vec<u32> = (0..self.vocabulary.variables.len() as u32)
-            .filter(|&variable| !self.vocabulary.variables[variable as usize].edits.is_empty())
-            .collect();
         let signature = self.signature(edits);
         let known = self.refuted.contains(&signature) || edits.is_empty() && self.unsolvable;
         let answer = if known {
-            Answer::Unsolvable
+            Answer::Unsolvable(budget)
         } else {
             solve(self.domain, &changed, false, budget, self.limits)?
         };
-        let refuted = match answer {
+        let proof = match answer {
             Answer::Plan(plan) if plan.steps.is_empty() && !edits.is_empty() => {
                 // What satisfies the goal at once is no excuse. Whatever else is changed besides costs more.
-                return Ok(Verdict::Ruled(everything));
+                return Ok(Verdict::Ruled(self.differs(edits)));
             }
             Answer::Plan(plan) => return Ok(Verdict::Plan(Box::new(changed), plan)),
             Answer::Stopped(stop) => return Ok(Verdict::Stopped(stop)),
-            Answer::Unsolvable => {
+            Answer::Unsolvable(work) => {
                 self.refuted.insert(signature);
-                true
+                Some(work)
             }
-            Answer::Spent => false,
+            Answer::Spent => None,
         };
-        let verdict = project::decide(self.open, self.vocabulary, state, budget, self.limits);
+        // Where it is known already that there is no plan, a proof that says more is worth as much work as that was.
+        let budget = proof.map_or(budget, |work| budget.min(4 * work + GENERAL));
+        let verdict =
+            project::decide(self.open, self.vocabulary, &self.helps, state, budget, self.limits);
         Ok(match verdict {
-            project::Verdict::Unsolvable(variables) => Verdict::Ruled(variables),
-            project::Verdict::Stopped(stop) if !refuted => Verdict::Stopped(stop),
-            _ if refuted => Verdict::Ruled(everything),
+            project::Verdict::Unsolvable(clause) => Verdict::Ruled(clause),
+            project::Verdict::Stopped(stop) if proof.is_none() => Verdict::Stopped(stop),
+            _ if proof.is_some() => Verdict::Ruled(self.differs(edits)),
             _ => Verdict::Undecided,
         })
     }
