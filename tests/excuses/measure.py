@@ -6,7 +6,7 @@
     python3 tests/excuses/measure.py --report                # the table of what has been measured
 
 The parts, each with its rows in target/bench/excuses-PART.tsv:
-`find`        `caveat excuse` with 30 s of CPU time; its answers are kept as target/bench/excuses/NAME.json.
+`find`        `caveat excuse` with 30 s of CPU time and 6 GiB; its answers are kept as target/bench/excuses/NAME.json.
 `verify`      The edits of each excuse are made in the text of the problem by this script, and its plan is validated there; on the first one
               `caveat plan` runs, too, and its plan is validated. Edits must not touch atoms of the goal.
 `compile`     The task of `caveat excuse --export` is solved by `caveat plan --optimal`, and by Fast Downward with astar(lmcut()) where
@@ -16,7 +16,7 @@ The parts, each with its rows in target/bench/excuses-PART.tsv:
               is tried, if that is at most 3000 states: each must be unsolvable, or break a group of atoms that exclude each other, or
               satisfy the goal at once. New objects are left out here, too.
 A run can be stopped and started again. Rows of `verify`, `compile` and `exhaustive` hold as long as what they judge is the same; rows of
-`find` stay until --again. The program is CAVEAT or --caveat.
+`find` stay until --again, or --failed for those without an answer. The program is CAVEAT or --caveat.
 """
 
 import argparse
@@ -49,6 +49,7 @@ def main():
     options.add_argument("--parts", nargs="+", choices=steps, default=list(steps))
     options.add_argument("--only", nargs="+", default=[""], help="only tasks with one of these in their names")
     options.add_argument("--again", action="store_true", help="forget the rows of these parts and tasks")
+    options.add_argument("--failed", action="store_true", help="forget the rows of tasks where the program crashed")
     options.add_argument("--report", action="store_true", help="measure nothing")
     options.add_argument("--excuse", nargs=argparse.REMAINDER, default=[], help="more options for `caveat excuse`; the last of all")
     options = options.parse_args()
@@ -61,6 +62,8 @@ def main():
     rows = {part: meter.Rows(options.rows / f"excuses-{part}.tsv", columns) for part, columns in PARTS.items()}
     if not options.report:
         options.program, options.caveat = meter.program(options.caveat), options.caveat.resolve()
+        if options.failed:
+            rows["find"].forget(lambda row: row["status"] != "-")
         for part in options.parts:
             if options.again:
                 for gone in [part, *(["plain"] if part == "find" else [])]:
@@ -74,10 +77,15 @@ def files(name, options):
     return options.broken.resolve() / name / "domain.pddl", options.broken.resolve() / name / "problem.pddl"
 
 
+def limits(seconds):
+    """The limits as options of the program."""
+    return ["--time-limit", f"{seconds}s", "--memory-limit", meter.MEMORY]
+
+
 def excuse(options, *words, seconds=SECONDS):
     """Runs the program under test. It may take a second more than it was told to, and is stopped after five."""
     with meter.Folder() as folder:
-        return meter.run([options.caveat, "excuse", "--time-limit", f"{seconds}s", *words, *options.excuse], seconds + 5, folder)
+        return meter.run([options.caveat, "excuse", *limits(seconds), *words, *options.excuse], seconds + 5, folder)
 
 
 def answer_of(run):
@@ -140,7 +148,7 @@ def solve(options, domain, problem, *words, seconds):
     with meter.Folder() as folder:
         (folder / "domain.pddl").write_text(domain)
         (folder / "problem.pddl").write_text(problem)
-        run = meter.run([options.caveat, "plan", "--time-limit", f"{seconds}s", *words, "domain.pddl", "problem.pddl"], seconds + 5, folder)
+        run = meter.run([options.caveat, "plan", *limits(seconds), *words, "domain.pddl", "problem.pddl"], seconds + 5, folder)
         plan = folder / "sas_plan"
         if run.code not in (0, 1, 2) or not plan.exists():
             return run, None, None, None

@@ -22,8 +22,13 @@ BENCH = ROOT / "target/bench"
 CAVEAT = Path(os.environ.get("CAVEAT") or ROOT / "target/release/caveat")
 # The driver of Fast Downward, or nothing.
 PEER = os.environ.get("FAST_DOWNWARD")
-# Bytes of address space that a process may take.
-BYTES = 8 << 30
+# What the program under test is told about memory, and the bytes of address space that no process may exceed: far more, for it is
+# the program that should keep its limit.
+MEMORY, BYTES = "6G", 16 << 30
+
+
+# Whoever stops the script stops what it runs.
+signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
 
 
 class Run:

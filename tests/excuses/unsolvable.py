@@ -37,7 +37,7 @@ def excuse(options, domain, problem):
 def plan(options, domain, problem):
     """What `caveat plan` says of a task."""
     with meter.Folder() as folder:
-        run = meter.run([options.caveat, "plan", "--time-limit", f"{SECONDS}s", domain, problem], SECONDS + 5, folder)
+        run = meter.run([options.caveat, "plan", *measure.limits(SECONDS), domain, problem], SECONDS + 5, folder)
     verdicts = {0: "solvable", 1: "solvable", 2: "solvable", 3: "solvable", 10: "unsolvable", 11: "unsolvable"}
     return run, {"verdict": verdicts.get(run.code, "failed" if run.code in (31, 32, 34, 36) else "unknown")}
 
