@@ -38,8 +38,8 @@ class Run:
         self.code, self.out, self.error, self.cpu, self.wall = code, out, error, cpu, wall
 
     def said(self):
-        """The last words of the error stream, in one line."""
-        return " ".join(self.error.split())[-200:]
+        """The first words of the error stream, in one line."""
+        return " ".join(self.error.split())[:200]
 
 
 def run(command, seconds, folder):

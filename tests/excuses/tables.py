@@ -98,6 +98,9 @@ def broken(index, rows):
     line("CPU, median", time)
     line("verified by plan and validator", count(verified, lambda name: name in check))
     line("everything smaller tried: confirmed", count(lambda name: sets[name]["verdict"] == "confirmed", tried))
+    line("… where that is more than the task itself", count(lambda name: sets[name]["verdict"] == "confirmed",
+                                                            lambda name: tried(name) and sets[name]["states"] != "1"))
+    line("… too much to try", count(lambda name: name in sets and sets[name]["verdict"] == "too many"))
     for title, prefix in (("compilation, `plan --optimal`", ""), ("compilation, Fast Downward `astar(lmcut())`", "peer-")):
         if any(row[f"{prefix}exit"] != "-" for row in task.values()):
             line(f"{title}: decided in 30 s", count(lambda name, prefix=prefix: decided(name, prefix)))
@@ -105,9 +108,10 @@ def broken(index, rows):
             line("… the same cost as ours", count(lambda name, both=both: agree(both(name)), both))
             line("… decided, ours not", count(lambda name, both=both, prefix=prefix: decided(name, prefix) and plain(name) and not both(name)))
     text = table(["", *(title for _, title in WAYS)], lines)
-    never = [row["name"] for row in index if row["proof"] == "none"]
-    if never:
-        text += f"\n\nNever unsolvable, whatever was removed: {', '.join(never)}."
+    never = [sum(row["proof"] == "none" and row["way"] == way for row in index) for way, _ in WAYS[:-1]]
+    if any(never):
+        text += "\n\nTried without becoming unsolvable, and replaced by other tasks: " + ", ".join(
+            f"{count} with {title}" for count, (_, title) in zip(never, WAYS)) + "."
     if len({row["program"] for row in find.values()}) > 1:
         text += "\n\nThe rows of `find` are of several builds of the program."
     faults = [f"{name}: said to be solvable" for name, row in find.items() if row["status"] == "solvable"]
