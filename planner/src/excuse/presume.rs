@@ -80,6 +80,11 @@ fn holding(open: &Open, group: &[FactId]) -> usize {
     group.iter().filter(|fact| open.initial[fact.index()]).count()
 }
 
+/// Whether a group is about objects that exist: of new ones the initial state says nothing.
+fn is_old(open: &Open, group: &[FactId]) -> bool {
+    group.iter().any(|&fact| open.needs(fact).is_empty())
+}
+
 /// Whether two predicates of one argument are never both true of an object: they are called opposites, or of every object exactly one is true, and each of
 /// some. `pairs` has the facts of both, by object.
 fn are_opposites(
@@ -113,7 +118,8 @@ fn are_opposites(
         let of = |fact: &&FactId| open.grounded.facts[fact.index()].predicate == id;
         pairs.iter().flatten().filter(of).any(|fact| open.initial[fact.index()])
     };
-    let shown = pairs.iter().all(|pair| holding(open, pair) == 1) && some(one) && some(other);
+    let mut old = pairs.iter().filter(|pair| is_old(open, pair));
+    let shown = old.all(|pair| holding(open, pair) == 1) && some(one) && some(other);
     named || negated(&left, &right) || negated(&right, &left) || shown
 }
 
@@ -139,6 +145,7 @@ fn function(
         });
         let instances = gather(keyed);
         let one = |group: &Vec<FactId>| group.len() > 1 && holding(open, group) == 1;
-        ((instances.len() > 1 || arity == 1) && instances.iter().all(one)).then_some(instances)
+        let old: Vec<&Vec<FactId>> = instances.iter().filter(|one| is_old(open, one)).collect();
+        ((old.len() > 1 || arity == 1) && old.into_iter().all(one)).then_some(instances)
     })
 }
