@@ -96,7 +96,8 @@ pub(crate) fn wrong(
     let expression = &annotation.expression;
     let parts = expression.children(Expression::ROOT).skip(1);
     let mut names = Vec::new();
-    parts.filter_map(|part| atom(expression, part, domain, problem, &mut names).err()).collect()
+    let wrong = |part| atom(expression, part, domain, problem, &mut names).err();
+    parts.filter_map(wrong).map(|diagnostic| *diagnostic).collect()
 }
 
 /// Resolves an atom; `names` are the variables met so far.
@@ -106,9 +107,11 @@ fn atom(
     domain: &Domain,
     problem: Option<&Problem>,
     names: &mut Vec<String>,
-) -> Result<Atom, Diagnostic> {
+) -> Result<Atom, Box<Diagnostic>> {
     let mut items = expression.children(part);
-    let head = items.next().ok_or_else(|| malformed_annotation::nameless(expression.span(part)))?;
+    let head = items
+        .next()
+        .ok_or_else(|| Box::new(malformed_annotation::nameless(expression.span(part))))?;
     let name = expression.word(head).unwrap_or_default();
     let known = domain
         .predicates
@@ -117,12 +120,8 @@ fn atom(
     let Some(number) = known else {
         let candidates = domain.predicates.iter().map(|predicate| predicate.name.text.as_str());
         let span = expression.span(head);
-        return Err(malformed_annotation::unknown(
-            "predicate",
-            name,
-            span,
-            nearest(name, candidates),
-        ));
+        let near = nearest(name, candidates);
+        return Err(Box::new(malformed_annotation::unknown("predicate", name, span, near)));
     };
     let mut arguments = Vec::new();
     for item in items {
@@ -138,24 +137,18 @@ fn atom(
         }
         let objects = problem.map_or(&domain.constants, |problem| &problem.objects);
         let object = objects.iter().position(|object| object.name.text.eq_ignore_ascii_case(word));
-        match object {
-            Some(number) => arguments.push(Term::Object(ObjectId(number as u32))),
-            None => {
-                let candidates = objects.iter().map(|object| object.name.text.as_str());
-                let near = nearest(word, candidates);
-                return Err(malformed_annotation::unknown(
-                    "object",
-                    word,
-                    expression.span(item),
-                    near,
-                ));
-            }
-        }
+        let Some(number) = object else {
+            let candidates = objects.iter().map(|object| object.name.text.as_str());
+            let (span, near) = (expression.span(item), nearest(word, candidates));
+            return Err(Box::new(malformed_annotation::unknown("object", word, span, near)));
+        };
+        arguments.push(Term::Object(ObjectId(number as u32)));
     }
     let wanted = domain.predicates[number].parameters.len();
     if arguments.len() != wanted {
         let span = expression.span(part);
-        return Err(malformed_annotation::arity(name, wanted, arguments.len(), span));
+        let found = arguments.len();
+        return Err(Box::new(malformed_annotation::arity(name, wanted, found, span)));
     }
     Ok(Atom { predicate: PredicateId(number as u32), arguments })
 }

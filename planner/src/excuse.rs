@@ -172,10 +172,7 @@ pub fn find(
     limits: &Limits,
 ) -> Result<(Outcome, Statistics), Unsupported> {
     let mut run = Run {
-        domain,
-        problem,
-        question,
-        limits,
+        asked: Asked { domain, problem, question, limits },
         statistics: Statistics::default(),
         refuted: Refuted::default(),
         unsolvable: false,
@@ -241,12 +238,18 @@ fn out_of_reach(domain: &Domain, problem: &Problem, policy: &Policy) -> Result<b
     Ok(!policy.goal && normal.goal.literals.iter().any(lost))
 }
 
-/// What is known from the stages so far.
-struct Run<'a> {
+/// What is asked, of which task, and how long.
+#[derive(Clone, Copy)]
+struct Asked<'a> {
     domain: &'a Domain,
     problem: &'a Problem,
     question: &'a Question,
     limits: &'a Limits,
+}
+
+/// What is known from the stages so far.
+struct Run<'a> {
+    asked: Asked<'a>,
     statistics: Statistics,
     refuted: Refuted,
     unsolvable: bool,
@@ -270,8 +273,9 @@ impl Run<'_> {
     /// Opens what a stage opens and looks for excuses within its bound; the outcome, if that settles it.
     fn stage(&mut self, stage: Level) -> Result<Option<Outcome>, Unsupported> {
         let Level { most, bound, last } = stage;
-        let (domain, limits, policy) = (self.domain, self.limits, &self.question.policy);
-        let open = match Open::new(domain, self.problem, policy, most, bound, limits) {
+        let Asked { domain, problem, question, limits } = self.asked;
+        let policy = &question.policy;
+        let open = match Open::new(domain, problem, policy, most, bound, limits) {
             Ok(open) => open,
             Err(Obstacle::Unsupported(unsupported)) => return Err(unsupported),
             Err(Obstacle::Hopeless { narrow }) => {
@@ -282,7 +286,7 @@ impl Run<'_> {
             }
             Err(Obstacle::Stopped(stop)) => return Ok(Some(self.end(Unfinished::Stopped(stop)))),
             Err(Obstacle::Large) => {
-                let answer = solve(domain, self.problem, false, u64::MAX, limits)?;
+                let answer = solve(domain, problem, false, u64::MAX, limits)?;
                 self.unsolvable |= matches!(answer, Answer::Unsolvable(_));
                 return Ok(Some(match answer {
                     Answer::Plan(plan) => Outcome::Solvable(plan),
@@ -292,19 +296,10 @@ impl Run<'_> {
         };
         // What excludes what does not depend on what is open.
         let invariants = self.invariants.get_or_insert_with(|| known(domain, &open, limits));
-        let vocabulary = Vocabulary::new(&open, domain, invariants, &self.question.policy);
+        let vocabulary = Vocabulary::new(&open, domain, invariants, policy);
         self.presumed |= vocabulary.groups.iter().any(|group| group.origin == Origin::Presumed);
         let mut refuted = std::mem::take(&mut self.refuted);
-        let mut stage = Stage::new(
-            domain,
-            self.problem,
-            &open,
-            &vocabulary,
-            self.question,
-            &mut refuted,
-            self.unsolvable,
-            limits,
-        );
+        let mut stage = Stage::new(self.asked, &open, &vocabulary, &mut refuted, self.unsolvable);
         let known = self.best.as_ref().map_or(u32::MAX, |(best, _)| best.cost);
         // Where nothing was left out, the bound means nothing.
         let whole = last && !open.narrow;
@@ -368,7 +363,7 @@ impl Run<'_> {
 
     fn excuses(&self, found: Found, missing: Vec<Fact>, proven: bool) -> Outcome {
         let Found { excuses, complete, .. } = found;
-        let list = rank::rank(self.domain, self.problem, excuses, self.question, self.limits);
+        let list = rank::rank(self.asked, excuses);
         Outcome::Excuses { missing, list, proven, complete }
     }
 }

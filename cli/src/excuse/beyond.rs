@@ -8,7 +8,7 @@ use planner::excuse::{Outcome, Question};
 use serde_json::{Value, json};
 
 use super::report::FEW;
-use super::words::{Words, listed};
+use super::words::{Words, add, listed};
 use crate::args::excuse::Excuse;
 use crate::input::{self, Input};
 use crate::limits::Watch;
@@ -121,7 +121,7 @@ fn conflicts_text(conflicts: &Conflicts, words: Words<'_>) -> String {
     let alone: Vec<String> = conflicts
         .conflicts
         .iter()
-        .filter(|set| set.count_ones() == 1)
+        .filter(|set| set.is_power_of_two())
         .flat_map(|&set| parts(conflicts, set, words))
         .collect();
     let together: Vec<&u64> =
@@ -129,21 +129,21 @@ fn conflicts_text(conflicts: &Conflicts, words: Words<'_>) -> String {
     if !alone.is_empty() {
         text.push_str("there is no plan for\n");
         for part in &alone {
-            text.push_str(&format!("  {part}\n"));
+            add(&mut text, format_args!("  {part}\n"));
         }
     }
     if !together.is_empty() {
         let word = if alone.is_empty() { "" } else { "Of the rest, " };
-        text.push_str(&format!("{word}these cannot be had together:\n"));
+        add(&mut text, format_args!("{word}these cannot be had together:\n"));
         for &&set in &together {
-            text.push_str(&format!("  {}\n", listed(&parts(conflicts, set, words))));
+            add(&mut text, format_args!("  {}\n", listed(&parts(conflicts, set, words))));
         }
     }
     if let Some(&best) = conflicts.feasible.iter().max_by_key(|set| set.count_ones()) {
-        text.push_str(&format!(
-            "A plan can have {} of its {all} parts at once.\n",
-            best.count_ones()
-        ));
+        add(
+            &mut text,
+            format_args!("A plan can have {} of its {all} parts at once.\n", best.count_ones()),
+        );
     } else if alone.len() < all {
         text.push_str("No part of it alone is known to have a plan.\n");
     }
@@ -164,26 +164,29 @@ fn missing_text(missing: &[Missing], refuted: bool, words: Words<'_>) -> String 
         return text;
     }
     let count = missing[0].operators.len();
-    text.push_str(&match count {
-        1 => "One missing operator would be enough".to_owned(),
-        count => format!("{count} missing operators would be enough"),
-    });
+    match count {
+        1 => text.push_str("One missing operator would be enough"),
+        count => add(&mut text, format_args!("{count} missing operators would be enough")),
+    }
     text.push_str(if missing.len() == 1 { ":\n" } else { "; any of these:\n" });
     for (number, one) in missing.iter().enumerate() {
-        text.push_str(&format!("\n{}. ", number + 1));
+        add(&mut text, format_args!("\n{}. ", number + 1));
         let shown: Vec<String> =
             one.operators.iter().map(|operator| pddl(operator, words)).collect();
         text.push_str(&shown.join("\n   ").replace('\n', "\n   "));
         let uses: usize = one.operators.iter().map(|operator| operator.uses.len()).sum();
         let times = if uses == 1 { "once".to_owned() } else { format!("{uses} times") };
-        text.push_str(&format!("\n   It is used {times} in a plan of {} steps:\n", one.plan.len()));
+        add(
+            &mut text,
+            format_args!("\n   It is used {times} in a plan of {} steps:\n", one.plan.len()),
+        );
         let steps = plan(one, words);
         let shown = if number == 0 || steps.len() <= FEW { steps.len() } else { FEW };
         for step in &steps[..shown] {
-            text.push_str(&format!("     {step}\n"));
+            add(&mut text, format_args!("     {step}\n"));
         }
         if shown < steps.len() {
-            text.push_str(&format!("     … and {} more\n", steps.len() - shown));
+            add(&mut text, format_args!("     … and {} more\n", steps.len() - shown));
         }
     }
     text

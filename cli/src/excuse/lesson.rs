@@ -13,7 +13,7 @@ use planner::solve::{Answer, solve};
 use serde_json::json;
 
 use super::report::Report;
-use super::words::{Mood, Words, listed};
+use super::words::{Mood, Words, add, listed};
 use crate::args::excuse::{AnswerFormat, Excuse};
 use crate::exit::Exit;
 use crate::files::{self, Complaint};
@@ -58,18 +58,18 @@ pub fn write(
         .filter(|fact| fact.arguments.iter().any(|object| objects.contains(&object)));
     text.push_str("Begin where these hold:\n");
     for fact in about {
-        text.push_str(&format!("  {}\n", words.clause(fact, Mood::Is, false)));
+        add(&mut text, format_args!("  {}\n", words.clause(fact, Mood::Is, false)));
     }
     text.push_str("Reach a state where these hold:\n");
     for fact in &made {
-        text.push_str(&format!("  {}\n", words.clause(fact, Mood::Is, false)));
+        add(&mut text, format_args!("  {}\n", words.clause(fact, Mood::Is, false)));
     }
     for fact in &gone {
-        text.push_str(&format!("  {}\n", words.clause(fact, Mood::IsNot, false)));
+        add(&mut text, format_args!("  {}\n", words.clause(fact, Mood::IsNot, false)));
     }
     text.push_str("Leave everything else as it is. From there the robot can go on:\n");
     for step in &excuse.plan.steps {
-        text.push_str(&format!("  {}\n", plan::line(step, &input.domain, &excuse.problem)));
+        add(&mut text, format_args!("  {}\n", plan::line(step, &input.domain, &excuse.problem)));
     }
     let style = Style {
         head: "What to demonstrate: from this initial state reach this goal.".to_owned(),
@@ -165,7 +165,10 @@ pub fn check(
     }
     match (&story, reached.as_slice()) {
         (Some(story), _) => {
-            terminal.data(format_args!("The demonstration cannot be carried out.\n{story}"))
+            terminal.data(format_args!(
+                "The demonstration cannot be carried out.
+{story}"
+            ));
         }
         (None, []) => terminal.line("The demonstration reaches no excuse of the task."),
         (None, [one]) => terminal.line(format_args!("The demonstration reaches excuse {one}.")),

@@ -5,7 +5,7 @@ use lang::plan;
 use planner::excuse::{Excuse, Origin, Outcome, Statistics, Unfinished, Why};
 use serde_json::{Value, json};
 
-use super::words::{Mood, Words, listed};
+use super::words::{Mood, Words, add, listed};
 use crate::input::Input;
 
 /// So many steps are shown of plans after the first.
@@ -41,10 +41,13 @@ impl Report<'_> {
                     steps(plan.steps.len())
                 );
                 for step in &plan.steps {
-                    text.push_str(&format!(
-                        "     {}\n",
-                        plan::line(step, &self.input.domain, &self.input.problem)
-                    ));
+                    add(
+                        &mut text,
+                        format_args!(
+                            "     {}\n",
+                            plan::line(step, &self.input.domain, &self.input.problem)
+                        ),
+                    );
                 }
                 text
             }
@@ -84,25 +87,28 @@ impl Report<'_> {
         let mut text = String::from("The problem has no plan as it stands.\n");
         for (number, excuse) in list.iter().enumerate() {
             let words = self.words(excuse);
-            text.push_str(&format!("\n{}. {}\n", number + 1, self.heading(excuse)));
+            add(&mut text, format_args!("\n{}. {}\n", number + 1, self.heading(excuse)));
             for change in &excuse.changes {
-                text.push_str(&format!("     {}\n", formal(words, change)));
+                add(&mut text, format_args!("     {}\n", formal(words, change)));
             }
-            text.push_str(&format!("   {}\n", self.sentence(missing, excuse)));
+            add(&mut text, format_args!("   {}\n", self.sentence(missing, excuse)));
             let steps = self.steps(excuse);
             // The first plan is shown whole; of others so much that they can be told apart.
             let shown = if number == 0 || steps.len() <= FEW { steps.len() } else { FEW };
             for step in &steps[..shown] {
-                text.push_str(&format!("     {step}\n"));
+                add(&mut text, format_args!("     {step}\n"));
             }
             if shown < steps.len() {
-                text.push_str(&format!("     … and {} more\n", steps.len() - shown));
+                add(&mut text, format_args!("     … and {} more\n", steps.len() - shown));
             }
             if let Some(&deeper) = excuse.follows_from.first() {
-                text.push_str(&format!(
-                    "   Excuse {} is the deeper cause: from there a plan leads here.\n",
-                    deeper + 1
-                ));
+                add(
+                    &mut text,
+                    format_args!(
+                        "   Excuse {} is the deeper cause: from there a plan leads here.\n",
+                        deeper + 1
+                    ),
+                );
             }
         }
         text.push('\n');
@@ -112,10 +118,14 @@ impl Report<'_> {
             (_, true) => ", and no others of the same cost",
             (_, false) => "; there may be more of the same cost",
         };
-        text.push_str(&match proven {
-            true => format!("No excuse costs less than {cost}{ties}.\n"),
-            false => format!("It is not proven that no excuse costs less than {cost}.\n"),
-        });
+        if proven {
+            add(&mut text, format_args!("No excuse costs less than {cost}{ties}.\n"));
+        } else {
+            add(
+                &mut text,
+                format_args!("It is not proven that no excuse costs less than {cost}.\n"),
+            );
+        }
         text
     }
 
@@ -136,7 +146,7 @@ impl Report<'_> {
             text.push_str("Each part of the goal is in reach by itself, but not all of it. ");
         } else {
             let more = if missing.len() > 3 { ", among others" } else { "" };
-            text.push_str(&format!("The goal needs {}{more}. ", listed(&wishes)));
+            add(&mut text, format_args!("The goal needs {}{more}. ", listed(&wishes)));
         }
         let mut subject = None;
         for change in excuse.changes.iter().take(4) {
@@ -153,24 +163,18 @@ impl Report<'_> {
             };
             match change.why {
                 Why::NoAction => {
-                    text.push_str(&format!("No action {}, and {now}. ", words.makes(to)));
+                    add(&mut text, format_args!("No action {}, and {now}. ", words.makes(to)));
                 }
                 Why::OutOfReach => {
-                    text.push_str(&format!(
-                        "What {} is out of reach, and {now}. ",
-                        words.makes(to)
-                    ));
+                    add(
+                        &mut text,
+                        format_args!("What {} is out of reach, and {now}. ", words.makes(to)),
+                    );
                 }
                 Why::TooLate | Why::Other => {
-                    if change.from.is_some() {
-                        text.push_str(&format!(
-                            "Now {}. ",
-                            words.clause(
-                                change.from.as_ref().expect("it is there"),
-                                Mood::Is,
-                                false
-                            )
-                        ));
+                    if let Some(from) = &change.from {
+                        let now = words.clause(from, Mood::Is, false);
+                        add(&mut text, format_args!("Now {now}. "));
                     }
                 }
             }
@@ -186,7 +190,7 @@ impl Report<'_> {
             })
             .collect();
         let plan = excuse.plan.steps.len();
-        text.push_str(&format!("If {}, this {plan}-step plan would do.", listed(&parts)));
+        add(&mut text, format_args!("If {}, this {plan}-step plan would do.", listed(&parts)));
         text
     }
 

@@ -3,6 +3,8 @@
 //! A fact about one object is an adjective of it, one about two a relation between them. Predicates that begin with a verb (`has-image`, `blocks`) keep
 //! it, and whatever has more arguments is quoted as it is written.
 
+use std::fmt::{self, Write};
+
 use lang::condition::Condition;
 use lang::model::{Domain, Fact, ObjectId, Problem, Term, VariableId};
 use planner::excuse::Change;
@@ -106,8 +108,8 @@ impl Words<'_> {
                     (Mood::Were, _) => format!("did {bare}"),
                     (Mood::WereNot, _) => format!("did not {bare}"),
                 };
-                let others: String =
-                    others.iter().map(|&other| format!(" {}", self.object(other))).collect();
+                let others: Vec<String> = others.iter().map(|&other| self.object(other)).collect();
+                let others = others.iter().fold(String::new(), |text, other| text + " " + other);
                 let rest = if rest.is_empty() { rest } else { format!(" {rest}") };
                 format!("{} {verb}{rest}{others}", subject(*one))
             }
@@ -160,8 +162,8 @@ impl Words<'_> {
         match condition {
             Condition::Atom(atom, holds) => {
                 let name = &self.domain.predicates[atom.predicate.index()].name.text;
-                let arguments: String =
-                    atom.arguments.iter().map(|one| format!(" {}", term(one))).collect();
+                let arguments =
+                    atom.arguments.iter().fold(String::new(), |text, one| text + " " + &term(one));
                 signed(format!("({name}{arguments})"), *holds)
             }
             Condition::Equal(left, right, holds) => {
@@ -191,6 +193,11 @@ impl Words<'_> {
             (None, None) => String::new(),
         }
     }
+}
+
+/// Adds to a text.
+pub fn add(text: &mut String, more: impl fmt::Display) {
+    write!(text, "{more}").expect("a string takes all that is written to it");
 }
 
 /// Parts of a sentence, with commas and a last "and".

@@ -295,7 +295,7 @@ impl<'a> Trials<'a> {
         let first = self.domain.actions.len();
         let mut state = executor.initial();
         let mut steps = Vec::new();
-        let mut seen: Vec<Vec<(Vec<ObjectId>, Lifted, Lifted)>> = vec![Vec::new(); set.len()];
+        let mut seen: Vec<Vec<Use>> = vec![Vec::new(); set.len()];
         for step in &plan.steps {
             let ActionId(action) = step.action;
             if let Some(trial) = (action as usize).checked_sub(first) {
@@ -360,9 +360,9 @@ impl<'a> Trials<'a> {
         facts
     }
 
-    fn operator(&self, trial: usize, seen: Vec<(Vec<ObjectId>, Lifted, Lifted)>) -> Abstract {
+    fn operator(&self, trial: usize, seen: Vec<Use>) -> Abstract {
         let predicate = self.predicates[trial];
-        let common = |of: &dyn Fn(&(Vec<ObjectId>, Lifted, Lifted)) -> Lifted| {
+        let common = |of: &dyn Fn(&Use) -> Lifted| {
             let mut all = seen.iter().map(of);
             let first = all.next().unwrap_or_default();
             all.fold(first, |left, right| left.intersection(&right).cloned().collect())
@@ -384,6 +384,9 @@ impl<'a> Trials<'a> {
         }
     }
 }
+
+/// A use of a trial operator: its objects, what was true of them, and what it made false of that.
+type Use = (Vec<ObjectId>, Lifted, Lifted);
 
 /// Facts in terms of the parameters that their objects stand for.
 type Lifted = BTreeSet<(PredicateId, Vec<u32>)>;

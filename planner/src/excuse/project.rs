@@ -244,6 +244,9 @@ impl Search<'_> {
     }
 }
 
+/// What an effect needs, and what it does.
+type Conditional = (Vec<Literal>, Literal);
+
 /// The problem in which nothing but the tracked facts exists. Operators that come to the same are one; the action of each is the number of one that it stands for.
 fn project(tracked: &Tracked<'_>, state: &[bool]) -> Grounded {
     let open = tracked.open;
@@ -260,10 +263,10 @@ fn project(tracked: &Tracked<'_>, state: &[bool]) -> Grounded {
     let rename = |literal: Literal| Literal { fact: FactId(new[literal.fact.index()]), ..literal };
     let slice =
         |range: &std::ops::Range<u32>| &from.literals[range.start as usize..range.end as usize];
-    let mut seen: FxHashSet<(Vec<Literal>, Vec<(Vec<Literal>, Literal)>)> = FxHashSet::default();
+    let mut seen: FxHashSet<(Vec<Literal>, Vec<Conditional>)> = FxHashSet::default();
     for (number, operator) in from.operators.iter().enumerate() {
         let own = tracked.own(operator);
-        let effects: Vec<(Vec<Literal>, Literal)> = from.effects
+        let effects: Vec<Conditional> = from.effects
             [operator.effects.start as usize..operator.effects.end as usize]
             .iter()
             .filter(|effect| tracked.is[effect.literal.fact.index()])

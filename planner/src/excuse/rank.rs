@@ -6,21 +6,16 @@
 use lang::condition::Condition;
 use lang::model::{Atom, Domain, Problem, Scope, Term};
 
-use super::{Excuse, Question};
+use super::{Asked, Excuse};
 use crate::limits::Limits;
 use crate::solve::{Answer, solve};
 
 /// So many pairs are compared at most.
 const MOST_PAIRS: usize = 2_000;
 
-/// Ranks excuses of `problem`.
-pub(super) fn rank(
-    domain: &Domain,
-    problem: &Problem,
-    mut excuses: Vec<Excuse>,
-    question: &Question,
-    limits: &Limits,
-) -> Vec<Excuse> {
+/// Ranks excuses of one cost.
+pub(super) fn rank(asked: Asked<'_>, mut excuses: Vec<Excuse>) -> Vec<Excuse> {
+    let Asked { domain, problem, question, limits } = asked;
     let count = excuses.len();
     let mut leads = vec![vec![false; count]; count];
     let share = question.polish / (count as u64 * count as u64 + 1) + 10_000;

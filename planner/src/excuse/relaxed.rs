@@ -254,7 +254,7 @@ impl Relaxed {
         let mut cores = Vec::new();
         while !self.solved() {
             let zone = self.zone(wanted);
-            let core = self.minimal(zone, all, limits)?;
+            let core = self.minimal(&zone, all, limits)?;
             let hopeless = core.is_empty();
             self.add(core.iter().copied());
             cores.push(core);
@@ -283,14 +283,14 @@ impl Relaxed {
     }
 
     /// A subset of a core that is one, too, and of which no literal can be left out.
-    fn minimal(&mut self, core: Vec<u32>, all: &[u32], limits: &Limits) -> Result<Vec<u32>, Stop> {
+    fn minimal(&mut self, core: &[u32], all: &[u32], limits: &Limits) -> Result<Vec<u32>, Stop> {
         let mut inside = vec![false; self.reached.len()];
-        for &literal in &core {
+        for &literal in core {
             inside[literal as usize] = true;
         }
         let start = self.add(all.iter().copied().filter(|&literal| !inside[literal as usize]));
         let mut kept = Vec::new();
-        for &literal in &core {
+        for &literal in core {
             if let Some(stop) = limits.stopped() {
                 return Err(stop);
             }

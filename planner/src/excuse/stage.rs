@@ -1,7 +1,7 @@
 //! What is open and what may be changed go in; the cheapest sets of edits with which there is a plan come out.
 
 use lang::execute::Executor;
-use lang::model::{Domain, Fact, ObjectId, Problem};
+use lang::model::{Fact, ObjectId, Problem};
 use lang::plan::Plan;
 use lang::validate;
 use rustc_hash::FxHashSet;
@@ -11,9 +11,9 @@ use super::open::Open;
 use super::project;
 use super::relaxed::{Relaxed, number};
 use super::vocabulary::Vocabulary;
-use super::{Change, Excuse, Question, Why};
+use super::{Asked, Change, Excuse, Why};
 use crate::grounded::FactId;
-use crate::limits::{Limits, Stop};
+use crate::limits::Stop;
 use crate::normalize::Unsupported;
 use crate::solve::{Answer, solve};
 
@@ -67,12 +67,9 @@ enum Verdict {
 
 /// The search for excuses among the facts that are open.
 pub struct Stage<'a> {
-    domain: &'a Domain,
-    original: &'a Problem,
+    asked: Asked<'a>,
     open: &'a Open,
     vocabulary: &'a Vocabulary,
-    question: &'a Question,
-    limits: &'a Limits,
     relaxed: Relaxed,
     /// Literals that some edit makes true or leaves true, as a set and as a list.
     wanted: Vec<bool>,
@@ -98,14 +95,11 @@ pub struct Stage<'a> {
 
 impl<'a> Stage<'a> {
     pub fn new(
-        domain: &'a Domain,
-        original: &'a Problem,
+        asked: Asked<'a>,
         open: &'a Open,
         vocabulary: &'a Vocabulary,
-        question: &'a Question,
         refuted: &'a mut Refuted,
         unsolvable: bool,
-        limits: &'a Limits,
     ) -> Self {
         let mut wanted = vec![false; open.count() * 2];
         for edit in &vocabulary.edits {
@@ -137,16 +131,13 @@ impl<'a> Stage<'a> {
             (0..open.count() as u32).map(|fact| relaxed.has(number(FactId(fact), true))).collect();
         relaxed.undo(mark);
         Self {
-            domain,
-            original,
+            asked,
             open,
             vocabulary,
-            question,
-            limits,
             relaxed,
             wanted,
             all,
-            hitting: Hitting::new(vocabulary, question.most_edits),
+            hitting: Hitting::new(vocabulary, asked.question.most_edits),
             unsolvable,
             refuted,
             made,
@@ -184,7 +175,7 @@ impl<'a> Stage<'a> {
     pub fn run_beyond(&mut self) -> Result<(), Unsupported> {
         let mut edits = Vec::new();
         for _ in 0..TRIES_BEYOND {
-            if self.limits.stopped().is_some() || !self.hitting.complete(&mut edits) {
+            if self.asked.limits.stopped().is_some() || !self.hitting.complete(&mut edits) {
                 return Ok(());
             }
             if self.is_excuse(&edits)? {
@@ -194,7 +185,7 @@ impl<'a> Stage<'a> {
         let mut kept = edits.clone();
         for edit in edits {
             let fewer: Vec<u32> = kept.iter().copied().filter(|&one| one != edit).collect();
-            if self.limits.stopped().is_none()
+            if self.asked.limits.stopped().is_none()
                 && self.hitting.is_complete(&fewer)
                 && self.is_excuse(&fewer)?
             {
@@ -234,11 +225,11 @@ impl<'a> Stage<'a> {
 
     /// Looks at the next set of edits; says how the stage ends, if it does.
     fn step(&mut self, most: u32) -> Result<Option<End>, Unsupported> {
-        if let Some(stop) = self.limits.stopped() {
+        if let Some(stop) = self.asked.limits.stopped() {
             self.complete = false;
             return Ok(Some(End::Stopped(stop)));
         }
-        let (next, tried) = self.hitting.next(most, self.limits);
+        let (next, tried) = self.hitting.next(most, self.asked.limits);
         let (node, edits) = match next {
             Next::Edits(node, edits) => (node, edits),
             Next::Nothing => return Ok(Some(End::Done)),
@@ -248,9 +239,10 @@ impl<'a> Stage<'a> {
             }
         };
         let known = self.excuses.len();
-        let tired =
-            known > 0 && self.tried >= self.last_tried && self.question.most_excuses != usize::MAX;
-        if known >= self.question.most_excuses || tired {
+        let tired = known > 0
+            && self.tried >= self.last_tried
+            && self.asked.question.most_excuses != usize::MAX;
+        if known >= self.asked.question.most_excuses || tired {
             self.complete = false;
             return Ok(Some(End::Done));
         }
@@ -309,7 +301,7 @@ impl<'a> Stage<'a> {
         let mark = self.relaxed.add(true_of(state, &self.wanted));
         let cut = !self.relaxed.solved();
         if cut {
-            let cores = self.relaxed.cores(&self.wanted, &self.all, self.limits);
+            let cores = self.relaxed.cores(&self.wanted, &self.all, self.asked.limits);
             let cores = match cores {
                 Ok(cores) => cores,
                 Err(stop) => {
@@ -359,7 +351,7 @@ impl<'a> Stage<'a> {
         let answer = if known {
             Answer::Unsolvable(budget)
         } else {
-            solve(self.domain, &changed, false, budget, self.limits)?
+            solve(self.asked.domain, &changed, false, budget, self.asked.limits)?
         };
         let proof = match answer {
             Answer::Plan(plan) if plan.steps.is_empty() && !edits.is_empty() => {
@@ -376,8 +368,14 @@ impl<'a> Stage<'a> {
         };
         // Where it is known already that there is no plan, a proof that says more is worth as much work as that was.
         let budget = proof.map_or(budget, |work| budget.min(4 * work + GENERAL));
-        let verdict =
-            project::decide(self.open, self.vocabulary, &self.helps, state, budget, self.limits);
+        let verdict = project::decide(
+            self.open,
+            self.vocabulary,
+            &self.helps,
+            state,
+            budget,
+            self.asked.limits,
+        );
         Ok(match verdict {
             project::Verdict::Unsolvable(clause) => Verdict::Ruled(clause),
             project::Verdict::Stopped(stop) if proof.is_none() => Verdict::Stopped(stop),
@@ -388,7 +386,7 @@ impl<'a> Stage<'a> {
 
     /// The problem after some edits, and its new objects by their number there.
     fn changed(&self, edits: &[u32]) -> (Problem, Vec<(ObjectId, ObjectId)>) {
-        let mut problem = self.original.clone();
+        let mut problem = self.asked.problem.clone();
         let mut renamed = Vec::new();
         for &edit in edits {
             if let Some(object) = self.vocabulary.edits[edit as usize].object {
@@ -422,7 +420,7 @@ impl<'a> Stage<'a> {
 
     /// Keeps an excuse, if the executor agrees that its plan is one.
     fn keep(&mut self, edits: &[u32], problem: Problem, plan: Plan) {
-        let executor = Executor::new(self.domain, &problem);
+        let executor = Executor::new(self.asked.domain, &problem);
         let valid = executor.is_ok_and(|executor| validate::is_valid(&executor, &plan));
         assert!(valid, "the executor accepts every plan of the planner");
         let (_, renamed) = self.changed(edits);

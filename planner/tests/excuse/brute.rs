@@ -111,14 +111,25 @@ fn changed(problem: &Problem, changes: &[Change]) -> Problem {
     problem
 }
 
-/// The cost of the smallest excuses and all of that cost, `Some(None)` if none costs `most` or less; nothing if there are too many sets to try.
+/// What trying everything says.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Tried {
+    /// The cost of the smallest excuses, and all of that cost.
+    Smallest(u32, BTreeSet<BTreeSet<Change>>),
+    /// None is so cheap.
+    Nothing,
+    /// There are too many sets to try.
+    TooMany,
+}
+
+/// Tries all sets that cost `most` at most, of which there are `most_sets` at most.
 pub fn smallest(
     domain: &Domain,
     problem: &Problem,
     catalogue: &Catalogue,
     most: u32,
     most_sets: usize,
-) -> Option<Option<(u32, BTreeSet<BTreeSet<Change>>)>> {
+) -> Tried {
     let mut sets: Vec<(u32, Vec<Change>)> = vec![(0, Vec::new())];
     for choice in &catalogue.variables {
         let before = sets.clone();
@@ -132,7 +143,7 @@ pub fn smallest(
             }
         }
         if sets.len() > most_sets {
-            return None;
+            return Tried::TooMany;
         }
     }
     sets.sort_by_key(|(cost, _)| *cost);
@@ -150,5 +161,8 @@ pub fn smallest(
             found.get_or_insert((cost, BTreeSet::new())).1.insert(set.into_iter().collect());
         }
     }
-    Some(found)
+    match found {
+        Some((cost, sets)) => Tried::Smallest(cost, sets),
+        None => Tried::Nothing,
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-/// A small generator of numbers (SplitMix64).
+/// A small generator of numbers (`SplitMix64`).
 struct Numbers(u64);
 
 impl Numbers {
@@ -77,7 +77,7 @@ pub fn world(seed: u64) -> (String, String) {
     } else {
         domain.push_str("  (:derived (glow ?p - p) (lit ?p))\n");
     }
-    for number in 0..1 + numbers.next(3) {
+    for number in 0..=numbers.next(3) {
         let (mut before, mut after) = (String::new(), String::new());
         if numbers.chance(60) {
             (before, after) = transition(&mut numbers);
@@ -117,7 +117,7 @@ pub fn world(seed: u64) -> (String, String) {
         facts.insert(atom(&mut numbers, of, true));
     }
     let mut goal = String::new();
-    for _ in 0..1 + numbers.next(2) {
+    for _ in 0..=numbers.next(2) {
         let of = [0, 2, 3, 5][numbers.next(4)];
         goal = format!("{goal} {}", literal(&mut numbers, of, 15, true));
     }
