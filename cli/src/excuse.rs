@@ -5,6 +5,7 @@ mod report;
 mod beyond;
 mod lesson;
 mod variables;
+mod export;
 
 use std::path::Path;
 
@@ -48,6 +49,9 @@ pub fn run(arguments: &Excuse, terminal: &mut Terminal) -> Exit {
     let watch = Watch::start(allowance, false);
     if let Some(most) = arguments.variables {
         return variables::print(&input, &question.policy, most, &watch, format, terminal);
+    }
+    if let Some(folder) = &arguments.export {
+        return export::write(&input, &question.policy, folder, &watch, format, terminal);
     }
     let start = cpu_time();
     let found = excuse::find(&input.domain, &input.problem, &question, &watch.limits);

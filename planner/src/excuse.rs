@@ -16,6 +16,7 @@ mod hitting;
 mod project;
 mod stage;
 mod rank;
+mod export;
 pub mod goals;
 pub mod operators;
 
@@ -29,6 +30,7 @@ use crate::limits::{Limits, Stop};
 use crate::normal::Term;
 use crate::normalize::Unsupported;
 use crate::solve::{Answer, solve};
+pub use export::{Export, export};
 use open::{Obstacle, Open};
 pub use policy::{KIND, OBJECT, Policy, STATIC};
 use stage::{End, Found, Refuted, Stage};

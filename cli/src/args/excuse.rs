@@ -84,6 +84,7 @@ pub struct Excuse {
     #[arg(long, value_name = "FILE")]
     pub apply: Option<PathBuf>,
     /// Search nothing; write a domain and a problem in which the changes are actions with costs, for any planner that minimises cost.
+    /// New objects are not among them, and their number is not limited.
     #[arg(long, value_name = "FOLDER")]
     pub export: Option<PathBuf>,
     /// Search nothing; print what may be changed at a cost of at most N, as JSON.

@@ -2,6 +2,7 @@
 
 mod brute;
 mod random;
+mod export;
 
 use std::collections::BTreeSet;
 
