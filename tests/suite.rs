@@ -5,6 +5,7 @@ mod bad;
 mod compiled;
 mod costs;
 mod domains;
+mod excuses;
 mod joint;
 mod listings;
 mod multiagent_page;

@@ -151,14 +151,14 @@ fn kitchens_store_no_more_plates_than_they_have() {
 type Fact = dyn Fn(u32) -> String;
 
 /// A line of `excuses.tsv`.
-struct Excuse {
-    problem: String,
-    cost: u32,
-    changes: String,
+pub struct Excuse {
+    pub problem: String,
+    pub cost: u32,
+    pub changes: String,
 }
 
 /// What `excuses.tsv` of the domain `name` says.
-fn excuses(name: &str) -> Vec<Excuse> {
+pub fn excuses(name: &str) -> Vec<Excuse> {
     let text = read(&folder(name).join("excuses.tsv"));
     text.lines()
         .map(|line| {
@@ -175,7 +175,7 @@ fn excuses(name: &str) -> Vec<Excuse> {
 }
 
 /// Makes one change in the initial state or the objects of a problem; says what it costs.
-fn edit(text: &mut String, change: &str) -> u32 {
+pub fn edit(text: &mut String, change: &str) -> u32 {
     let Some((before, after)) = change.split_once(" -> ") else {
         *text = text.replacen("(:objects", &format!("(:objects {change}"), 1);
         return 5;
@@ -197,7 +197,7 @@ fn plan(files: &[&Path]) -> (Exit, String) {
 }
 
 /// The problems of a domain by their names.
-fn problems(name: &str) -> Vec<String> {
+pub fn problems(name: &str) -> Vec<String> {
     files(name, "pddl")
         .iter()
         .map(|file| file.file_stem().expect("it has an ending").to_string_lossy().into_owned())
@@ -216,10 +216,10 @@ fn files(name: &str, ending: &str) -> Vec<PathBuf> {
     files
 }
 
-fn folder(name: &str) -> PathBuf {
+pub fn folder(name: &str) -> PathBuf {
     domains::folder().join(name)
 }
 
-fn read(path: &Path) -> String {
+pub fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
