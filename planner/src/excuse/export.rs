@@ -22,7 +22,7 @@ mod begin;
 
 use std::collections::BTreeMap;
 
-use lang::model::{ActionId, Domain, Fact, ObjectId, PredicateId, Problem, Term};
+use lang::model::{Action, ActionId, Domain, Fact, ObjectId, PredicateId, Problem, Term};
 use lang::plan::{Plan, Step};
 use lang::write::{self, Style};
 
@@ -114,15 +114,19 @@ impl Export {
 
     /// The text of the domain; `made` says from what it was made.
     pub fn domain_text(&self, made: &str) -> String {
+        let begins = |action: &&Action| action.name.text.starts_with("begin");
+        let several = self.domain.actions[..self.added as usize].iter().filter(begins).count() > 1;
+        let begin = if several { "a step begin..." } else { "`begin`" };
         let mut head = format!(
             "{made}
 The cheapest plans begin with the smallest excuses: the cheapest changes of the initial state with which the problem has a plan.
 
-A plan changes the initial state, takes `begin`, and goes on with the domain's own actions, which cost nothing.
+A plan changes the initial state, takes {begin}, and goes on with the domain's own actions, which cost nothing.
 Every step change-... is a change of what its first argument stands for, and the cost of the plan is that of all changes.
 If it is 0, the problem has a plan as it is. If there is no plan, there is no excuse."
         );
-        if self.domain.actions.iter().any(|action| action.name.text.starts_with("claim-")) {
+        let claims = |action: &Action| action.name.text.starts_with("claim-");
+        if self.domain.actions[..self.added as usize].iter().any(claims) {
             head.push_str(
                 "\nA step claim-... makes sure that what a change makes true does not meet what excludes it.",
             );
