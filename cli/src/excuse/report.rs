@@ -143,7 +143,7 @@ impl Report<'_> {
         let mut text = String::new();
         let wishes: Vec<String> = missing.iter().take(3).map(|fact| words.wish(fact)).collect();
         if wishes.is_empty() {
-            text.push_str("Each part of the goal is in reach by itself, but not all of it. ");
+            text.push_str("The goal as a whole is out of reach. ");
         } else {
             let more = if missing.len() > 3 { ", among others" } else { "" };
             add(&mut text, format_args!("The goal needs {}{more}. ", listed(&wishes)));

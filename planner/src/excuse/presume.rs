@@ -29,8 +29,7 @@ const OPPOSITES: [(&str, &str); 14] = [
 ];
 
 /// Words in the name of a predicate of one argument that say that it is the place of a single thing.
-const PLACES: [&str; 10] =
-    ["at", "in", "on", "loc", "location", "pos", "position", "place", "where", "current"];
+const PLACES: [&str; 7] = ["at", "loc", "location", "pos", "position", "place", "where"];
 
 /// The groups that are presumed of predicates that are in none of `known`.
 pub(super) fn groups(open: &Open, domain: &Domain, known: &[Group]) -> Vec<Group> {

@@ -193,7 +193,7 @@ impl<'a> Stage<'a> {
             }
         }
         self.excuses.clear();
-        if self.is_excuse(&kept)? {
+        if kept.len() <= self.asked.question.most_edits && self.is_excuse(&kept)? {
             self.complete = false;
         }
         Ok(())
@@ -459,7 +459,13 @@ impl Stage<'_> {
     /// The facts of the goal that are out of reach initially, even if nothing were ever lost.
     pub fn missing(&self) -> Vec<Fact> {
         let goals = self.open.grounded.goal.iter().filter(|literal| literal.positive);
-        let missing = goals.filter(|literal| !self.in_reach[literal.fact.index()]);
+        // What stands for a disjunction in the goal has no name.
+        let named = |fact: FactId| {
+            let predicate = self.open.grounded.facts[fact.index()].predicate;
+            predicate.index() < self.asked.domain.predicates.len()
+        };
+        let missing =
+            goals.filter(|literal| !self.in_reach[literal.fact.index()] && named(literal.fact));
         missing.filter_map(|literal| Vocabulary::fact(self.open, literal.fact)).collect()
     }
 

@@ -98,7 +98,7 @@ impl Vocabulary {
         let holding =
             |group: &Group| group.facts.iter().filter(|fact| open.initial[fact.index()]).count();
         // A group that is broken already says nothing, and where none of its facts holds none has to.
-        groups.retain(|group| group.facts.len() > 1 && holding(group) <= 1);
+        groups.retain(|group| (group.facts.len() > 1 || group.exactly) && holding(group) <= 1);
         for group in &mut groups {
             group.exactly &= holding(group) == 1;
         }
