@@ -57,7 +57,7 @@ impl Desk {
             let here = [".pddl", ".plan", ".txt"].iter().any(|end| word.ends_with(end));
             match word {
                 _ if word.starts_with("domains/") => root.join(word).into(),
-                _ if here || word == "lesson" => self.path(word).into(),
+                _ if here || word == "lesson" || word == "task" => self.path(word).into(),
                 _ => word.into(),
             }
         };
