@@ -443,8 +443,17 @@ fn codes_are_explained() {
 fn help_is_data_and_has_examples() {
     let desk = Desk::new();
     let mut shown = String::new();
-    let verbs =
-        ["check", "plan", "validate", "compile", "ground", "excuse", "bench", "explain", "completions"];
+    let verbs = [
+        "check",
+        "plan",
+        "validate",
+        "compile",
+        "ground",
+        "excuse",
+        "bench",
+        "explain",
+        "completions",
+    ];
     for verb in [""].into_iter().chain(verbs) {
         let run = desk.run(&format!("{verb} --help")).ends_with(0);
         assert!(run.stderr.is_empty());
