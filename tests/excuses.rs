@@ -157,7 +157,7 @@ fn the_cheapest_excuses_of_the_shipped_problems_are_exactly_those_that_are_state
                 fs::write(&changed, text).expect("there is room for a problem");
                 let steps = excuse["plan"].as_array().expect("there is a plan");
                 let steps: String =
-                    steps.iter().map(|step| format!("{}\n", self::text(step))).collect();
+                    steps.iter().fold(String::new(), |text, step| text + self::text(step) + "\n");
                 fs::write(&plan, steps).expect("there is room for a plan");
                 let domain = folder(name).join("domain.pddl");
                 let (exit, said) = caveat("validate", &[], &[&domain, &changed, &plan]);

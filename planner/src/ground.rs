@@ -2,7 +2,7 @@
 //!
 //! First a fixpoint of joins finds what is reachable when deletes are ignored ([`reach`]), over interned relations ([`relation`]) and
 //! without storing intermediate results ([`join`]); then every instance is written out once ([`emit`]);
-//! last, what always or never holds is taken out ([`simplify`]).
+//! last, what always or never holds is taken out ([`mod@simplify`]).
 
 mod relation;
 mod world;

@@ -136,9 +136,10 @@ fn ties_are_all_shown() {
         assert_eq!(answer["complete"], complete, "{options}");
         let command = format!("caveat excuse {options} fuses.pddl blown.pddl");
         let said = desk.ends(Exit::Done, &command);
-        let end = match complete {
-            true => "No excuse costs less than 1, and no others of the same cost.\n",
-            false => "No excuse costs less than 1; there may be more of the same cost.\n",
+        let end = if complete {
+            "No excuse costs less than 1, and no others of the same cost.\n"
+        } else {
+            "No excuse costs less than 1; there may be more of the same cost.\n"
         };
         assert!(said.ends_with(end), "{said}");
     }

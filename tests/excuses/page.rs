@@ -30,12 +30,11 @@ fn the_page_shows_what_is_printed() {
     let desk = Desk::with(&[]);
     let mut wrong = Vec::new();
     for (line, command, shown) in session {
-        let printed = match command.strip_prefix("cat ") {
-            Some(file) => desk.file(file),
-            None => {
-                let run = desk.run(&command);
-                run.data + &run.talk
-            }
+        let printed = if let Some(file) = command.strip_prefix("cat ") {
+            desk.file(file)
+        } else {
+            let run = desk.run(&command);
+            run.data + &run.talk
         };
         if untimed(&printed) != untimed(&shown) {
             wrong.push(format!("line {line}: `{command}` prints\n{printed}"));
