@@ -1,1 +1,9 @@
 //! A log of hands and objects over time goes in; a readable operator for a domain comes out.
+//!
+//! The rooms in the order in which data passes them:
+//!
+//! - [`log`]: frames of hands and objects, as they were tracked;
+//! - [`truth`]: what really happened in a frame, where somebody knows it.
+
+pub mod log;
+pub mod truth;

@@ -1,0 +1,31 @@
+//! What really happened in a frame of a log, from a world that knows it or a person who annotated it.
+//!
+//! It lies beside a log and is what segmentation is judged by, and what a decision tree is learned from; nothing that learns operators reads it.
+
+use crate::log::{Fact, HandState};
+
+/// What a hand does, as table 3.1 of the thesis names it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Activity {
+    /// Nothing, or on its way without an aim.
+    Idle,
+    /// On its way to an object, with nothing in the hand.
+    Reach,
+    /// It has an object in the hand and rests.
+    Take,
+    /// It moves an object about.
+    Put,
+    /// What it holds works on another object.
+    Granular,
+}
+
+/// What really happened at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Truth {
+    /// The time of the frame in seconds.
+    pub time: f64,
+    /// For each hand of the header what it did.
+    pub hands: Vec<(HandState, Activity)>,
+    /// What held.
+    pub facts: Vec<Fact>,
+}
