@@ -31,6 +31,10 @@ pub struct Style {
     pub actions: BTreeMap<ActionId, String>,
     /// A comment before each of these predicates.
     pub predicates: BTreeMap<PredicateId, String>,
+    /// Annotations of the domain, one in a line, without the `;@`.
+    pub groups: String,
+    /// Annotations of each of these actions, one in a line, without the `;@`.
+    pub annotations: BTreeMap<ActionId, String>,
 }
 
 /// Writes a domain.
@@ -42,6 +46,7 @@ pub fn domain(domain: &Domain, style: &Style) -> String {
     out.types();
     out.objects(":constants", &domain.constants);
     out.predicates(style);
+    out.annotation(&style.groups);
     out.functions();
     for axiom in &domain.axioms {
         out.axiom(axiom);
@@ -51,7 +56,7 @@ pub fn domain(domain: &Domain, style: &Style) -> String {
         if let Some(comment) = style.actions.get(&ActionId(id as u32)) {
             out.comment(comment);
         }
-        out.action(action);
+        out.action(action, style.annotations.get(&ActionId(id as u32)));
     }
     out.finish()
 }
@@ -101,6 +106,13 @@ impl<'m> Writer<'m> {
                 self.push(format!("; {}", line.trim_end()).trim_end());
                 self.push("\n");
             }
+        }
+    }
+
+    /// Annotations, each on lines of its own.
+    fn annotation(&mut self, text: &str) {
+        for line in text.lines() {
+            self.push(&format!(";@ {line}\n"));
         }
     }
 
@@ -251,7 +263,7 @@ impl<'m> Writer<'m> {
         self.push(")\n");
     }
 
-    fn action(&mut self, action: &Action) {
+    fn action(&mut self, action: &Action, annotation: Option<&String>) {
         let mut variables = Variables::new(&action.scope.variables);
         let parameters: Vec<VariableId> = (0..action.scope.parameters).map(VariableId).collect();
         variables.bind(&parameters);
@@ -270,6 +282,10 @@ impl<'m> Writer<'m> {
         }
         self.push(":effect");
         self.effects(action, &mut variables);
+        if let Some(annotation) = annotation {
+            self.push("\n");
+            self.annotation(annotation);
+        }
         self.push(")\n");
     }
 

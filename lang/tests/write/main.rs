@@ -227,6 +227,8 @@ fn a_multi_agent_domain_with_comments() {
         head: "Two rovers on one road.\n\nThey must not meet.".to_owned(),
         actions: BTreeMap::from([(ActionId(1), "Stands still.\nAnd charges.".to_owned())]),
         predicates: BTreeMap::from([(PredicateId(2), "Enough for one drive.".to_owned())]),
+        groups: "(:at-most-one (at ?r ?site))".to_owned(),
+        annotations: BTreeMap::from([(ActionId(1), "(:seen 2 \"monday\")".to_owned())]),
     };
     insta::assert_snapshot!(write::domain(&task.domain, &style));
     let head = Style { head: "The smallest problem.".to_owned(), ..Style::default() };

@@ -1,0 +1,138 @@
+//! Evidence goes in; the learned actions come out, and those that are refused.
+
+use lang::model::{ActionId, Atom};
+
+use super::evidence::{Claim, Evidence, LiteralId, Record};
+use super::guard::{Guard, Guarding, Unclear};
+use super::settle::{Settled, Status, settle};
+use super::{Action, Doubt, Learned, Options, Reason, Refusal, Rule, partner};
+
+/// Draws all conclusions.
+pub(super) fn conclude(evidence: &Evidence, options: &Options) -> Learned {
+    let settled = settle(evidence, options.tolerance);
+    let mut learned = Learned {
+        domain: evidence.domain.clone(),
+        rule: options.rule,
+        actions: Vec::new(),
+        refused: Vec::new(),
+        strays: evidence.strays,
+    };
+    for at in 0..evidence.records.len() {
+        let action = ActionId(at as u32);
+        match one(evidence, &settled, action, options) {
+            Ok(action) => learned.actions.push(action),
+            Err(reason) => learned.refused.push(Refusal { action, reason }),
+        }
+    }
+    learned
+}
+
+fn one(
+    evidence: &Evidence,
+    settled: &Settled<'_>,
+    action: ActionId,
+    options: &Options,
+) -> Result<Action, Reason> {
+    let record = &evidence.records[action.index()];
+    if record.seen == 0 {
+        return Err(Reason::Unseen);
+    }
+    if record.whole == 0 {
+        return Err(Reason::Obscured);
+    }
+    let lenient = options.rule == Rule::Changed;
+    if let Some(reason) = contradicted(record, settled).filter(|_| !lenient) {
+        return Err(reason);
+    }
+    // In so many examples a precondition may have been missing, or something forbidden been there.
+    let spared = (options.tolerance * f64::from(record.seen)).floor() as u32;
+    let required: Vec<bool> = record
+        .counts
+        .iter()
+        .map(|count| count.held + spared >= record.seen && count.held > 0)
+        .collect();
+    let absent =
+        |at: &usize| options.negative && record.counts[*at].held <= spared && !required[*at];
+    let none = || (Vec::new(), vec![false; record.atoms.len()]);
+    let (partners, shared) =
+        if options.joint { partner::partners(evidence, settled, record) } else { none() };
+    let guarding = Guarding {
+        evidence,
+        settled,
+        record,
+        action: &evidence.domain.actions[action.index()],
+        required: &required,
+        shared: &shared,
+    };
+    let guard = match guarding.guard() {
+        Ok(guard) => guard,
+        Err(_) if lenient => Guard::default(),
+        Err(unclear) => return Err(reason(evidence, settled, unclear)),
+    };
+    let status = |list: &[Status], at: usize| list[record.first as usize + at];
+    let all = 0..record.atoms.len();
+    let pick = |test: &dyn Fn(&usize) -> bool| -> Vec<Atom> {
+        all.clone().filter(test).map(|at| record.atoms[at].clone()).collect()
+    };
+    let adds = |at: &usize| effect(status(&settled.adds, *at), shared[*at]);
+    let deletes = |at: &usize| !adds(at) && effect(status(&settled.deletes, *at), shared[*at]);
+    let doubt = |at: usize| Doubt {
+        atom: record.atoms[at].clone(),
+        seen: record.counts[at].held,
+        of: record.seen,
+        usual: evidence.usual[record.atoms[at].predicate.index()],
+    };
+    let doubtful = all.clone().filter(|at| required[*at] && !deletes(at));
+    Ok(Action {
+        action,
+        count: record.seen,
+        sources: record.sources.clone(),
+        required: pick(&|at| required[*at]),
+        changed: pick(&|at| required[*at] && deletes(at)),
+        absent: pick(&absent),
+        same: guard.same,
+        distinct: guard.distinct,
+        adds: pick(&adds),
+        deletes: pick(&deletes),
+        doubts: doubtful.map(doubt).collect(),
+        partners,
+    })
+}
+
+/// Whether something is an effect, perhaps because a partner is demanded.
+fn effect(status: Status, shared: bool) -> bool {
+    status == Status::Yes || (status == Status::Open && shared)
+}
+
+fn contradicted(record: &Record, settled: &Settled<'_>) -> Option<Reason> {
+    let own = record.first..record.first + record.atoms.len() as u32;
+    let found = settled.contradictions.iter().find(|found| own.contains(&found.literal.0))?;
+    Some(Reason::Contradicted {
+        atom: record.atoms[(found.literal.0 - record.first) as usize].clone(),
+        positive: found.positive,
+        happened: found.happened,
+        failed: found.failed,
+    })
+}
+
+/// What else may have been the cause of an unclear effect.
+fn reason(evidence: &Evidence, settled: &Settled<'_>, unclear: Unclear) -> Reason {
+    let atom = |literal: LiteralId| {
+        let (action, at) = evidence.literal(literal);
+        (action, evidence.records[action.index()].atoms[at].clone())
+    };
+    let positive = unclear.claim == Claim::Adds;
+    let list = if positive { &settled.adds } else { &settled.deletes };
+    let about = |literals: &[LiteralId]| literals.contains(&unclear.literal);
+    let clause =
+        settled.open.iter().find(|clause| clause.claim == unclear.claim && about(&clause.literals));
+    let others = clause.map(|clause| {
+        let others = clause
+            .literals
+            .iter()
+            .filter(|literal| **literal != unclear.literal && list[literal.index()] != Status::No);
+        others.map(|literal| atom(*literal)).collect()
+    });
+    let others = others.unwrap_or_default();
+    Reason::Unclear { atom: atom(unclear.literal).1, positive, others }
+}
