@@ -62,6 +62,7 @@ fn one(
         record,
         action: &evidence.domain.actions[action.index()],
         required: &required,
+        strict: options.negative,
         shared: &shared,
     };
     let guard = match guarding.guard() {
@@ -89,7 +90,7 @@ fn one(
         sources: record.sources.clone(),
         required: pick(&|at| required[*at]),
         changed: pick(&|at| required[*at] && deletes(at)),
-        absent: pick(&absent),
+        absent: pick(&|at| absent(at) || guard.absent.contains(at)),
         same: guard.same,
         distinct: guard.distinct,
         adds: pick(&adds),

@@ -14,6 +14,8 @@ use super::settle::{Settled, Status};
 pub(super) struct Guard {
     pub(super) same: Vec<(Term, Term)>,
     pub(super) distinct: Vec<(Term, Term)>,
+    /// Which atoms must not hold, since it is not clear whether they are deleted.
+    pub(super) absent: Vec<usize>,
 }
 
 /// A possible effect that stays unclear.
@@ -31,6 +33,8 @@ pub(super) struct Guarding<'e> {
     pub(super) action: &'e Action,
     /// Which of its atoms are demanded.
     pub(super) required: &'e [bool],
+    /// Nothing is taken for granted about what an action deletes that it does not demand.
+    pub(super) strict: bool,
     /// Which of its atoms are effects because a partner is demanded.
     pub(super) shared: &'e [bool],
 }
@@ -41,11 +45,19 @@ impl Guarding<'_> {
         let mut guard = Guard::default();
         loop {
             let classes = self.classes(&guard);
-            let Some(unclear) = classes.iter().find_map(|class| self.harm(class)) else {
+            let harm = classes.iter().find_map(|class| self.harm(class, &guard));
+            let Some(unclear) = harm else {
                 self.keep_apart(&classes, &mut guard);
                 return Ok(guard);
             };
-            self.unite(unclear, &mut guard)?;
+            if self.unite(unclear, &mut guard) {
+                continue;
+            }
+            let at = (unclear.literal.0 - self.record.first) as usize;
+            if unclear.claim == Claim::Adds || self.disputed(at) || self.required[at] {
+                return Err(unclear);
+            }
+            guard.absent.push(at);
         }
     }
 
@@ -81,30 +93,47 @@ impl Guarding<'_> {
         if self.shared[at] && settled == Status::Open { Status::Yes } else { settled }
     }
 
-    /// Whether it may have been there to be deleted. What an action deletes and what never held before it, it is taken not to delete.
-    fn may_delete(&self, at: usize) -> bool {
-        self.deletes(at) == Status::Open && self.record.counts[at].held > 0
+    /// Whether some change may be its doing, or another's.
+    fn disputed(&self, at: usize) -> bool {
+        let literal = self.id(at);
+        self.settled
+            .open
+            .iter()
+            .any(|clause| clause.claim != Claim::Adds && clause.literals.contains(&literal))
+    }
+
+    /// Whether it may be deleted where it holds. What an action does not demand, and what nothing speaks for, it is taken not to delete.
+    fn may_delete(&self, at: usize, guard: &Guard) -> bool {
+        self.deletes(at) == Status::Open
+            && self.record.counts[at].held > 0
+            && (self.strict || self.required[at] || self.disputed(at))
+            && !guard.absent.contains(&at)
+    }
+
+    /// Whether a literal may be what a clause speaks of.
+    fn may(&self, claim: Claim, literal: LiteralId) -> bool {
+        let lists = [&self.settled.adds, &self.settled.deletes];
+        let [adds, deletes] = lists.map(|list| list[literal.index()] != Status::No);
+        (adds && claim != Claim::Deletes) || (deletes && claim != Claim::Adds)
     }
 
     /// Whether all that may be the cause of some change is in the class, so that it comes in any case.
     fn whole_clause(&self, class: &[usize], claim: Claim) -> bool {
-        let list = if claim == Claim::Adds { &self.settled.adds } else { &self.settled.deletes };
         let inside = |literal: &LiteralId| {
             let at = literal.0.checked_sub(self.record.first);
             at.is_some_and(|at| class.contains(&(at as usize)))
         };
         self.settled.open.iter().any(|clause| {
-            let mut open =
-                clause.literals.iter().filter(|literal| list[literal.index()] != Status::No);
+            let mut open = clause.literals.iter().filter(|literal| self.may(claim, **literal));
             clause.claim == claim && open.all(inside)
         })
     }
 
     /// What makes it unclear whether the fact that all of `class` are holds afterwards.
-    fn harm(&self, class: &[usize]) -> Option<Unclear> {
+    fn harm(&self, class: &[usize], guard: &Guard) -> Option<Unclear> {
         let any = |test: &dyn Fn(usize) -> bool| class.iter().copied().find(|at| test(*at));
         let open_add = any(&|at| self.adds(at) == Status::Open);
-        let may_delete = any(&|at| self.may_delete(at));
+        let may_delete = any(&|at| self.may_delete(at, guard));
         if open_add.is_none() && may_delete.is_none() {
             return None;
         }
@@ -114,11 +143,14 @@ impl Guarding<'_> {
         if self.whole_clause(class, Claim::Adds) {
             return None;
         }
+        let held = any(&|at| self.required[at]).is_some();
+        if held && self.whole_clause(class, Claim::Keeps) {
+            return None;
+        }
         if let Some(at) = open_add {
-            let held = any(&|at| self.required[at]).is_some();
             let kept = class.iter().all(|at| {
                 self.deletes(*at) == Status::No
-                    || (self.deletes(*at) == Status::Open && !self.may_delete(*at))
+                    || (self.deletes(*at) == Status::Open && !self.may_delete(*at, guard))
             });
             return (!held || !kept).then(|| Unclear { literal: self.id(at), claim: Claim::Adds });
         }
@@ -130,30 +162,29 @@ impl Guarding<'_> {
         may_delete.map(|at| Unclear { literal: self.id(at), claim: Claim::Deletes })
     }
 
-    /// Demands that all that may be the cause of a change are the same fact.
-    fn unite(&self, unclear: Unclear, guard: &mut Guard) -> Result<(), Unclear> {
+    /// Demands that all that may be the cause of a change are the same fact; says whether that is possible.
+    fn unite(&self, unclear: Unclear, guard: &mut Guard) -> bool {
         let first = self.record.first;
         let own = |literal: &LiteralId| {
             let at = literal.0.checked_sub(first).map(|at| at as usize);
             at.filter(|at| *at < self.record.atoms.len())
         };
-        let list =
-            if unclear.claim == Claim::Adds { &self.settled.adds } else { &self.settled.deletes };
         let before = guard.same.len();
         for clause in &self.settled.open {
-            if clause.claim != unclear.claim || !clause.literals.contains(&unclear.literal) {
+            let about = clause.claim == unclear.claim || clause.claim == Claim::Keeps;
+            if !about || !clause.literals.contains(&unclear.literal) {
                 continue;
             }
             let open: Vec<&LiteralId> = clause
                 .literals
                 .iter()
-                .filter(|literal| list[literal.index()] != Status::No)
+                .filter(|literal| self.may(clause.claim, **literal))
                 .collect();
             let Some(atoms) = open.iter().map(|literal| own(literal)).collect::<Option<Vec<_>>>()
             else {
                 continue;
             };
-            for at in &atoms[1..] {
+            for at in atoms.iter().skip(1) {
                 let pair = [atoms[0], *at].map(|at| &self.record.atoms[at].arguments);
                 for (one, other) in pair[0].iter().zip(pair[1]) {
                     let pair = [one, other].map(|term| representative(guard, *term));
@@ -163,20 +194,19 @@ impl Guarding<'_> {
                 }
             }
             if guard.same.len() > before {
-                return Ok(());
+                return true;
             }
         }
-        Err(unclear)
+        false
     }
 
     /// Demands that terms are different where it would be unclear what holds afterwards if they were not.
     fn keep_apart(&self, classes: &[Vec<usize>], guard: &mut Guard) {
-        let doubtful = |class: &&Vec<usize>| {
-            class.iter().any(|at| self.adds(*at) == Status::Open || self.may_delete(*at))
-        };
-        let deletes = |class: &&Vec<usize>| {
-            class.iter().any(|at| self.deletes(*at) == Status::Yes || self.may_delete(*at))
-        };
+        let fixed = guard.clone();
+        let open = |at: &usize| self.adds(*at) == Status::Open || self.may_delete(*at, &fixed);
+        let gone = |at: &usize| self.deletes(*at) == Status::Yes || self.may_delete(*at, &fixed);
+        let doubtful = |class: &&Vec<usize>| class.iter().any(open);
+        let deletes = |class: &&Vec<usize>| class.iter().any(gone);
         let deleting: Vec<&Vec<usize>> = classes.iter().filter(deletes).collect();
         for class in classes.iter().filter(doubtful) {
             for other in &deleting {
@@ -188,7 +218,7 @@ impl Guarding<'_> {
                     continue;
                 }
                 let both: Vec<usize> = class.iter().chain(other.iter()).copied().collect();
-                if self.harm(&both).is_some() {
+                if self.harm(&both, &fixed).is_some() {
                     self.separate(one, two, guard);
                 }
             }
