@@ -1,16 +1,16 @@
 //! What was learned goes in; a PDDL domain comes out, with the evidence as comments and as `;@ (:seen …)`.
 //!
 //! Parameters are named after their types, unless the vocabulary has names for them.
-//! What nothing needs is left out: types and constants without use, and predicates that no action is about.
+//! All predicates and types of the vocabulary stay, used or not, so that problems in its words can be read.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use lang::condition::Condition;
+use lang::diagnostic::Severity;
 use lang::model::{
-    self, ActionAtom, ActionId, Atom, Domain, Effect, Formula, Literal, PredicateId, Term,
-    Variable, VariableId,
+    self, ActionAtom, ActionId, Atom, Domain, Effect, Formula, Literal, Term, Variable, VariableId,
 };
-use lang::source::Span;
+use lang::source::{Sources, Span};
 use lang::write::Style;
 
 use crate::rule::{Action, Doubt, Learned, Partner, Rule};
@@ -39,7 +39,7 @@ pub fn domain(learned: &Learned, rule: Rule) -> (Domain, Style) {
         style.actions.insert(id, comment(learned, action));
         style.annotations.insert(id, seen(action));
     }
-    drop_unused(&mut domain);
+    quieten(&domain, &mut style);
     (domain, style)
 }
 
@@ -66,7 +66,7 @@ pub fn model(
     for partner in &action.partners {
         parts.extend(company(learned, partner, &mut bare, ids));
     }
-    bare.precondition = Condition::All(parts).formula(Span::default());
+    bare.precondition = Condition::all(parts).formula(Span::default());
     let literal = |positive: bool| {
         move |atom: &Atom| Literal { positive, atom: atom.clone(), span: Span::default() }
     };
@@ -178,38 +178,19 @@ fn seen(action: &Action) -> String {
     if lines.is_empty() { format!("(:seen {})", action.count) } else { lines.join("\n") }
 }
 
-/// Leaves out predicates that no action is about, and so nothing reads or changes.
-fn drop_unused(domain: &mut Domain) {
-    let mut used = vec![false; domain.predicates.len()];
-    for action in &domain.actions {
-        for node in &action.precondition.nodes {
-            if let model::NodeKind::Atom(atom) = &node.kind {
-                used[atom.predicate.index()] = true;
-            }
-        }
-        for literal in action.effects.iter().flat_map(|effect| &effect.literals) {
-            used[literal.atom.predicate.index()] = true;
-        }
-    }
-    let mut ids = Vec::new();
-    let mut kept = 0;
-    for used in &used {
-        ids.push(PredicateId(kept));
-        kept += u32::from(*used);
-    }
-    let mut at = 0;
-    domain.predicates.retain(|_| {
-        at += 1;
-        used[at - 1]
-    });
-    let rename = |atom: &mut Atom| atom.predicate = ids[atom.predicate.index()];
-    for action in &mut domain.actions {
-        for node in &mut action.precondition.nodes {
-            if let model::NodeKind::Atom(atom) = &mut node.kind {
-                rename(atom);
-            }
-        }
-        let literals = action.effects.iter_mut().flat_map(|effect| &mut effect.literals);
-        literals.for_each(|literal| rename(&mut literal.atom));
+/// Adds to the head of a domain what keeps `caveat check` quiet about it.
+///
+/// That a parameter or a predicate is of no use is what was learned, and nothing to be mended; other programs and problems may still name it.
+pub fn quieten(domain: &Domain, style: &mut Style) {
+    let mut sources = Sources::default();
+    let id = sources.add("learned", lang::write::domain(domain, style));
+    let (read, mut found) = lang::read_domain(&sources, id);
+    found.append(lang::lint::domain(&read));
+    found.append(lang::lint::text(&sources, id, &read));
+    let warnings = found.list.iter().filter(|one| one.severity == Severity::Warning);
+    let names: BTreeSet<&str> = warnings.map(|one| one.name).collect();
+    if !names.is_empty() {
+        let names: Vec<&str> = names.into_iter().collect();
+        style.head.push_str(&format!("\ncaveat: allow({})", names.join(", ")));
     }
 }

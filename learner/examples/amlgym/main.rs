@@ -26,7 +26,7 @@ const RUNS: usize = 30;
 
 /// The ways to learn that are compared.
 const WAYS: [(&str, Rule, bool); 3] = [
-    ("safe", Rule::Safe, false),
+    ("both", Rule::Both, false),
     ("changed", Rule::Changed, false),
     ("negative", Rule::Safe, true),
 ];
