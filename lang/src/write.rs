@@ -61,6 +61,16 @@ pub fn domain(domain: &Domain, style: &Style) -> String {
     out.finish()
 }
 
+/// Writes one action of a domain, with its comment and its annotations.
+pub fn action(domain: &Domain, id: ActionId, style: &Style) -> String {
+    let mut out = Writer::new(domain, &domain.constants);
+    if let Some(comment) = style.actions.get(&id) {
+        out.comment(comment);
+    }
+    out.action(&domain.actions[id.index()], style.annotations.get(&id));
+    format(&out.text).unwrap_or(out.text)
+}
+
 /// Writes a problem of `domain`.
 pub fn problem(domain: &Domain, problem: &Problem, style: &Style) -> String {
     let mut out = Writer::new(domain, &problem.objects);

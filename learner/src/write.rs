@@ -131,7 +131,7 @@ fn head(learned: &Learned) -> String {
 }
 
 /// How often an action was seen, and what is doubtful about it.
-fn comment(learned: &Learned, action: &Action) -> String {
+pub(crate) fn comment(learned: &Learned, action: &Action) -> String {
     let times = |count: u32| if count == 1 { "once".to_owned() } else { format!("{count} times") };
     let mut text = match action.sources.as_slice() {
         [] => format!("Seen {}.", times(action.count)),
@@ -165,7 +165,7 @@ fn evidence(learned: &Learned, action: &Action, doubt: &Doubt) -> String {
 }
 
 /// `(:seen 3 "monday.jsonl" …)` for each trace.
-fn seen(action: &Action) -> String {
+pub(crate) fn seen(action: &Action) -> String {
     let one = |(name, count): &(String, u32)| {
         let name: String = name.chars().filter(|letter| !"\"\n\r".contains(*letter)).collect();
         if name.is_empty() {
