@@ -3,7 +3,11 @@
 //! The rooms in the order in which data passes them:
 //!
 //! - [`log`]: frames of hands and objects, as they were tracked;
-//! - [`truth`]: what really happened in a frame, where somebody knows it.
+//! - [`truth`]: what really happened in a frame, where somebody knows it;
+//! - [`observe`]: what each hand does and which facts hold, frame by frame;
+//! - [`segment`]: the activities in which each hand spends its time.
 
 pub mod log;
 pub mod truth;
+pub mod observe;
+pub mod segment;
