@@ -4,12 +4,22 @@
 //!
 //! - [`log`]: frames of hands and objects, as they were tracked;
 //! - [`truth`]: what really happened in a frame, where somebody knows it;
+//! - [`observe`]: what each hand does and which facts hold, frame by frame;
+//! - [`segment`]: the activities in which each hand spends its time;
 //! - [`trace`]: symbolic states and the actions between them, and their text;
+//! - [`operators`]: from what was observed to a trace with named actions;
 //! - [`rule`]: what the actions of traces demand and do;
-//! - [`write`]: what was learned as a domain.
+//! - [`invariant`]: which facts exclude each other;
+//! - [`write`](mod@write): what was learned as a domain;
+//! - [`extend`](mod@extend): what was learned as part of a domain that was there.
 
 pub mod log;
 pub mod truth;
+pub mod observe;
+pub mod segment;
 pub mod trace;
+pub mod operators;
 pub mod rule;
+pub mod invariant;
 pub mod write;
+pub mod extend;

@@ -19,6 +19,34 @@ pub enum Activity {
     Granular,
 }
 
+impl Activity {
+    /// All of them.
+    pub const ALL: [Activity; 5] =
+        [Activity::Idle, Activity::Reach, Activity::Take, Activity::Put, Activity::Granular];
+
+    /// Its place in [`Activity::ALL`].
+    pub fn index(self) -> usize {
+        self as usize
+    }
+
+    /// Its name, as the thesis writes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Activity::Idle => "Idle",
+            Activity::Reach => "Reach",
+            Activity::Take => "Take",
+            Activity::Put => "Put",
+            Activity::Granular => "Granular",
+        }
+    }
+}
+
+impl std::fmt::Display for Activity {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(self.name())
+    }
+}
+
 /// What really happened at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Truth {

@@ -1,0 +1,251 @@
+//! Where a hand and the objects near it are, frame by frame, goes in; what it holds, and since which frame, comes out.
+
+use nalgebra::{Isometry3, Vector3};
+
+use super::config::Config;
+use super::shape::Shape;
+use crate::log::ObjectId;
+
+/// What is known of a hand at a frame.
+pub(super) struct Seen<'a> {
+    /// The number of the frame.
+    pub frame: u64,
+    /// The pose of the hand.
+    pub pose: Isometry3<f64>,
+    /// How closed it is, where that is measured.
+    pub grip: Option<f64>,
+    /// Whether it moves.
+    pub moves: bool,
+    /// The objects that can be held, with their distances to the hand in metres.
+    pub near: &'a [(ObjectId, f64)],
+    /// All objects where they are.
+    pub shapes: &'a [Option<Shape>],
+}
+
+/// From this frame on the hand holds this, or nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Since {
+    /// The number of the frame; it may be an earlier one.
+    pub frame: u64,
+    /// What is in the hand.
+    pub object: Option<ObjectId>,
+}
+
+/// An object that keeps its place in the frame of the hand.
+#[derive(Debug, Clone, Copy)]
+struct Bond {
+    object: ObjectId,
+    /// Its place in the frame of the hand when the bond began.
+    offset: Vector3<f64>,
+    /// Its place in the world then.
+    place: Vector3<f64>,
+    /// The frame in which the bond began.
+    frame: u64,
+    /// The first frame since in which the hand rested.
+    rest: Option<u64>,
+}
+
+/// Follows one hand.
+#[derive(Debug, Default)]
+pub(super) struct Grasp {
+    held: Option<Bond>,
+    /// The last frame in which what is held was where it should be in the hand.
+    firm: u64,
+    /// What could be held if it moved with the hand.
+    bonds: Vec<Bond>,
+    /// The objects among which the closing hand had to choose, with the place of the hand then.
+    doubt: Option<(Vector3<f64>, Vec<Bond>)>,
+    closed: bool,
+    /// The frame in which the hand closed, while it is closed around nothing.
+    closing: Option<u64>,
+}
+
+/// How many frames after it closed a hand may still find something between its fingers: tracking and gripper need not agree on the moment.
+const LATE: u64 = 8;
+
+impl Grasp {
+    /// What the hand holds as far as is known now.
+    pub fn held(&self) -> Option<ObjectId> {
+        self.held.map(|bond| bond.object)
+    }
+
+    /// Takes the next frame; says what changed, the earliest change first.
+    pub fn step(&mut self, seen: &Seen<'_>, config: &Config) -> Vec<Since> {
+        let mut changes = Vec::new();
+        self.follow(seen, config);
+        if let Some(grip) = seen.grip {
+            self.by_grip(seen, grip, config, &mut changes);
+        }
+        self.release(seen, config, &mut changes);
+        let open = seen.grip.is_some_and(|grip| grip <= config.grip.low);
+        if self.held.is_none() && !open {
+            self.by_motion(seen, config, &mut changes);
+        }
+        changes
+    }
+
+    /// Keeps the bonds of all near objects: one ends where the object shifts in the hand, and the next begins.
+    fn follow(&mut self, seen: &Seen<'_>, config: &Config) {
+        self.bonds.retain(|bond| {
+            seen.near
+                .iter()
+                .any(|&(object, distance)| object == bond.object && distance <= config.hold.high)
+        });
+        for &(object, distance) in seen.near {
+            let Some(new) = seen.bond(object) else { continue };
+            match self.bonds.iter_mut().find(|bond| bond.object == object) {
+                Some(bond) if (bond.offset - new.offset).norm() > config.rigid => *bond = new,
+                Some(bond) => bond.rest = bond.rest.or((!seen.moves).then_some(seen.frame)),
+                None if distance <= config.hold.low => self.bonds.push(new),
+                None => {}
+            }
+        }
+    }
+
+    /// A hand takes what is between its fingers when it closes, and lets go when it opens.
+    fn by_grip(&mut self, seen: &Seen<'_>, grip: f64, config: &Config, changes: &mut Vec<Since>) {
+        let closed = config.grip.rising(self.closed, grip);
+        let closes = closed && !self.closed;
+        self.closed = closed;
+        if grip <= config.grip.low {
+            self.closing = None;
+            if self.held.take().is_some() {
+                self.doubt = None;
+                self.bonds.clear();
+                changes.push(Since { frame: seen.frame, object: None });
+            }
+            return;
+        }
+        if closes && self.held.is_none() {
+            self.closing = Some(seen.frame);
+        }
+        if let Some(frame) = self.closing {
+            if seen.frame > frame + LATE || self.held.is_some() {
+                self.closing = None;
+            } else {
+                self.close(seen, config, changes);
+            }
+        }
+        self.decide(seen, config, changes);
+    }
+
+    /// Takes the nearest object; of those that are hardly further away the smallest, since a hand in a drawer is also near the drawer.
+    fn close(&mut self, seen: &Seen<'_>, config: &Config, changes: &mut Vec<Since>) {
+        let within: Vec<(ObjectId, f64)> = seen
+            .near
+            .iter()
+            .copied()
+            .filter(|&(_, distance)| distance <= config.hold.low)
+            .collect();
+        let Some(least) = within.iter().map(|&(_, distance)| distance).min_by(f64::total_cmp)
+        else {
+            return;
+        };
+        let radius = |object: ObjectId| {
+            seen.shapes[object.index()].map_or(f64::INFINITY, |shape| shape.radius)
+        };
+        let Some(&(object, _)) = within
+            .iter()
+            .filter(|(_, distance)| *distance <= least + 0.01)
+            .min_by(|one, other| radius(one.0).total_cmp(&radius(other.0)))
+        else {
+            return;
+        };
+        self.closing = None;
+        self.held = seen.bond(object);
+        self.firm = seen.frame;
+        let others: Vec<Bond> =
+            within.iter().filter_map(|&(object, _)| seen.bond(object)).collect();
+        self.doubt = (others.len() > 1).then(|| (seen.pose.translation.vector, others));
+        changes.push(Since { frame: seen.frame, object: Some(object) });
+    }
+
+    /// Once the hand has gone some way, what came along is what was taken.
+    fn decide(&mut self, seen: &Seen<'_>, config: &Config, changes: &mut Vec<Since>) {
+        let Some((start, bonds)) = &self.doubt else { return };
+        if (seen.pose.translation.vector - start).norm() < 2.0 * config.carried {
+            return;
+        }
+        let shift = |bond: &Bond| {
+            seen.bond(bond.object).map_or(f64::INFINITY, |now| (now.offset - bond.offset).norm())
+        };
+        let held = self.held.map(|bond| (bond.object, shift(&bond)));
+        let best = bonds.iter().min_by(|one, other| shift(one).total_cmp(&shift(other))).copied();
+        self.doubt = None;
+        if let (Some((object, far)), Some(best)) = (held, best)
+            && best.object != object
+            && far > config.rigid
+            && shift(&best) <= config.rigid
+        {
+            self.held = Some(best);
+            self.firm = seen.frame;
+            changes.push(Since { frame: best.frame, object: Some(best.object) });
+        }
+    }
+
+    /// What shifts in the hand and stays behind is lost.
+    fn release(&mut self, seen: &Seen<'_>, config: &Config, changes: &mut Vec<Since>) {
+        let Some(bond) = &mut self.held else { return };
+        let Some(now) = seen.bond(bond.object) else { return };
+        let shift = (now.offset - bond.offset).norm();
+        if shift <= config.rigid {
+            if shift <= config.rigid / 2.0 {
+                self.firm = seen.frame;
+            }
+            // It may slip slowly, which is no loss.
+            bond.offset += (now.offset - bond.offset) * 0.02;
+            return;
+        }
+        let far = seen
+            .near
+            .iter()
+            .find(|(object, _)| *object == bond.object)
+            .is_none_or(|&(_, distance)| distance > config.hold.high);
+        let measured = seen.grip.is_some_and(|grip| grip > config.grip.low);
+        // A closed gripper lets go only of what is clearly away from it; a hand without one of what stays behind.
+        if if measured { far } else { shift > 2.0 * config.rigid || far } {
+            let object = bond.object;
+            self.held = None;
+            self.doubt = None;
+            self.bonds.retain(|bond| bond.object != object);
+            changes.push(Since { frame: self.firm + 1, object: None });
+        }
+    }
+
+    /// What moves with a hand and keeps its place in it is held, since the hand rested at it.
+    fn by_motion(&mut self, seen: &Seen<'_>, config: &Config, changes: &mut Vec<Since>) {
+        let carried = |bond: &&Bond| {
+            seen.shapes[bond.object.index()]
+                .is_some_and(|shape| (shape.middle() - bond.place).norm() >= config.carried)
+        };
+        let distance = |bond: &Bond| {
+            seen.near
+                .iter()
+                .find(|(object, _)| *object == bond.object)
+                .map_or(f64::INFINITY, |near| near.1)
+        };
+        let best = self
+            .bonds
+            .iter()
+            .filter(carried)
+            .filter(|bond| distance(bond) <= config.hold.low)
+            .min_by(|one, other| distance(one).total_cmp(&distance(other)))
+            .copied();
+        if let Some(bond) = best {
+            self.held = Some(bond);
+            self.firm = seen.frame;
+            changes
+                .push(Since { frame: bond.rest.unwrap_or(bond.frame), object: Some(bond.object) });
+        }
+    }
+}
+
+impl Seen<'_> {
+    /// The bond to an object that would begin now.
+    fn bond(&self, object: ObjectId) -> Option<Bond> {
+        let place = self.shapes[object.index()]?.middle();
+        let offset = self.pose.rotation.inverse() * (place - self.pose.translation.vector);
+        let rest = (!self.moves).then_some(self.frame);
+        Some(Bond { object, offset, place, frame: self.frame, rest })
+    }
+}

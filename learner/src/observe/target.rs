@@ -1,0 +1,110 @@
+//! What a hand does now and in the next second goes in; the object that it approaches or works on comes out.
+
+use std::collections::VecDeque;
+
+use super::config::Config;
+use super::moment::{HandMoment, Moment};
+use crate::log::{HandId, Header, ObjectId};
+
+/// What `hand` acts on in the moment at `now`, where `before` is what it acted on the moment before.
+///
+/// A hand acts on something only while it moves. What it approaches is known better from what it comes to than from where it heads:
+/// if it takes something within the time that observation looks ahead, it was on its way to that; if it passes by and goes on, it was not.
+/// Where the moments do not reach so far, or [`Config::ahead`] is 0, the published rule is left: the nearest object in reach that comes nearer.
+pub(super) fn acted_on(
+    moments: &VecDeque<Moment>,
+    now: usize,
+    hand: HandId,
+    before: Option<ObjectId>,
+    header: &Header,
+    config: &Config,
+) -> Option<ObjectId> {
+    let at = |index: usize| &moments[index].hands[hand.index()];
+    let here = at(now);
+    if !here.moves || here.place.is_none() {
+        return None;
+    }
+    let held = here.in_hand;
+    let end = (now + 1..moments.len())
+        .take_while(|&index| moments[index].time - moments[now].time <= config.ahead)
+        .find(|&index| at(index).in_hand != held || at(index).place.is_none());
+    let last = (now..moments.len())
+        .take_while(|&index| moments[index].time - moments[now].time <= config.ahead)
+        .last()
+        .unwrap_or(now);
+    let taken = end.filter(|_| held.is_none()).and_then(|index| at(index).in_hand);
+    let until = end.unwrap_or(last);
+    let mut best: Option<(f64, f64, ObjectId)> = None;
+    for (number, object) in header.objects.iter().enumerate() {
+        let id = ObjectId(number as u32);
+        if !may_be_acted_on(header, id, held, config) || taken.is_some_and(|taken| taken != id) {
+            continue;
+        }
+        let distance = here.distance(held, number);
+        if distance.is_nan() || !config.reach.falling(before == Some(id), distance) {
+            continue;
+        }
+        debug_assert!(!object.region);
+        let (nearest, place) = (now..=until)
+            .map(|index| (at(index).distance(held, number), index))
+            .filter(|(distance, _)| !distance.is_nan())
+            .fold((distance, now), |best, next| if next.0 < best.0 { next } else { best });
+        let passes =
+            nearest > config.touch.high && place < until && taken.is_none() && config.ahead > 0.0;
+        if passes || !approaches(moments, now, hand, held, number, before == Some(id), config) {
+            continue;
+        }
+        let score = if config.ahead > 0.0 { nearest } else { distance };
+        if best.is_none_or(|(other, far, _)| (score, distance) < (other, far)) {
+            best = Some((score, distance, id));
+        }
+    }
+    best.map(|(_, _, id)| id)
+}
+
+/// Whether a hand that holds `held` can act on an object at all.
+fn may_be_acted_on(header: &Header, id: ObjectId, held: Option<ObjectId>, config: &Config) -> bool {
+    let object = &header.objects[id.index()];
+    let furniture = object.region || object.fixed && object.joints.is_empty();
+    let alike = config.same_class
+        && held.is_some_and(|held| header.objects[held.index()].kind == object.kind);
+    !furniture && held != Some(id) && !alike && !config.never_acted_on.contains(&object.kind)
+}
+
+/// Whether the distance to an object shrinks, or the hand works on it: it stays in touch and does not leave.
+fn approaches(
+    moments: &VecDeque<Moment>,
+    now: usize,
+    hand: HandId,
+    held: Option<ObjectId>,
+    object: usize,
+    before: bool,
+    config: &Config,
+) -> bool {
+    let reading = |index: usize| {
+        let distance = moments[index].hands[hand.index()].distance(held, object);
+        (!distance.is_nan()).then_some((moments[index].time, distance))
+    };
+    let near = |index: &usize| (moments[*index].time - moments[now].time).abs() <= config.smooth;
+    let first = (0..now).rev().take_while(near).filter_map(reading).last();
+    let last = (now + 1..moments.len()).take_while(near).filter_map(reading).last();
+    let Some(here) = reading(now) else { return false };
+    let (from, to) = (first.unwrap_or(here), last.unwrap_or(here));
+    if to.0 <= from.0 {
+        return before;
+    }
+    let rate = (to.1 - from.1) / (to.0 - from.0);
+    let slack = if before { 0.5 } else { 1.0 };
+    rate <= -config.approach * slack || here.1 <= config.touch.low && rate < config.approach * slack
+}
+
+impl HandMoment {
+    /// The distance of the hand, with what it holds, to an object; not a number where it is unknown.
+    pub(super) fn distance(&self, held: Option<ObjectId>, object: usize) -> f64 {
+        let distances = match held {
+            Some(held) if self.holding == Some(held) => &self.gaps,
+            _ => &self.bare,
+        };
+        distances.get(object).map_or(f64::NAN, |&distance| f64::from(distance))
+    }
+}
