@@ -59,7 +59,8 @@ pub fn extend(text: &str, domain: &Domain, learned: &Learned) -> Extension {
             let other = &domain.actions[place];
             extension.known.push((other.name.text.clone(), action.count));
             if !unmet.is_empty() {
-                let dropped = drop_conditions(text, domain, ActionId(place as u32), &unmet, &mut cuts);
+                let dropped =
+                    drop_conditions(text, domain, ActionId(place as u32), &unmet, &mut cuts);
                 extension.refined.push((other.name.text.clone(), dropped));
             }
             continue;
@@ -133,7 +134,10 @@ fn likeness(
     assignments(count, &mut Vec::new(), &mut |places| {
         let fits = own.scope.variables.iter().zip(places).all(|(variable, &place)| {
             let wanted = &other.scope.variables[place].types;
-            variable.types.iter().all(|&has| wanted.iter().any(|&wanted| domain.is_subtype(has, wanted)))
+            variable
+                .types
+                .iter()
+                .all(|&has| wanted.iter().any(|&wanted| domain.is_subtype(has, wanted)))
         });
         if !fits {
             return false;
@@ -151,10 +155,11 @@ fn likeness(
         }
         let held: Vec<Atom> = action.required.iter().map(mapped).collect();
         let parts = conjuncts(&other.precondition);
-        let unmet = parts.iter().enumerate().filter(|(_, id)| match other.precondition.kind(**id) {
-            NodeKind::Atom(atom) => !held.contains(atom),
-            _ => false,
-        });
+        let unmet =
+            parts.iter().enumerate().filter(|(_, id)| match other.precondition.kind(**id) {
+                NodeKind::Atom(atom) => !held.contains(atom),
+                _ => false,
+            });
         found = Some(unmet.map(|(place, _)| place).collect());
         true
     });

@@ -48,7 +48,11 @@ pub fn invariants(domain: &Domain, traces: &[Trace]) -> Vec<Invariant> {
                 let others = state.range((Part { predicate: PredicateId(0), key: None }, None)..);
                 together.extend(
                     others
-                        .filter(|((other, of), _)| *of == object && *other != part && other.key.is_some() == part.key.is_some())
+                        .filter(|((other, of), _)| {
+                            *of == object
+                                && *other != part
+                                && other.key.is_some() == part.key.is_some()
+                        })
                         .map(|((other, _), _)| (part, *other)),
                 );
             }
@@ -59,30 +63,36 @@ pub fn invariants(domain: &Domain, traces: &[Trace]) -> Vec<Invariant> {
             }
         }
     }
-    let alone: Vec<Part> = most.iter().filter(|(_, most)| **most <= 1).map(|(part, _)| *part).collect();
+    let alone: Vec<Part> =
+        most.iter().filter(|(_, most)| **most <= 1).map(|(part, _)| *part).collect();
     let mut groups: Vec<Vec<Part>> = Vec::new();
     for &seed in &alone {
         let mut group = vec![seed];
         while let Some(&next) = alone.iter().find(|&&part| {
             !group.contains(&part)
-                && group.iter().all(|&one| !together.contains(&(one, part)) && one.key.is_some() == part.key.is_some())
+                && group.iter().all(|&one| {
+                    !together.contains(&(one, part)) && one.key.is_some() == part.key.is_some()
+                })
                 && group.iter().any(|&one| exchanged.contains(&(one, part)))
         }) {
             group.push(next);
         }
         group.sort_unstable();
         // A single part says something where it passes from one thing to another.
-        let says = group.len() > 1 || (exchanged.contains(&(seed, seed)) && arity(domain, seed) > usize::from(seed.key.is_some()));
+        let says = group.len() > 1
+            && group.iter().all(|&part| {
+                part.key.is_some() || arity(domain, part) == 0 || varied(traces, part)
+            });
         if says && !groups.contains(&group) {
             groups.push(group);
         }
     }
+    // What is not always one of them may be a matter of chance.
+    let exactly = |parts: &Vec<Part>| always(domain, traces, &all, parts);
     let mut found: Vec<Invariant> = groups
         .into_iter()
-        .map(|parts| {
-            let exactly = always(domain, traces, &all, &parts);
-            Invariant { parts, exactly }
-        })
+        .filter(exactly)
+        .map(|parts| Invariant { parts, exactly: true })
         .collect();
     // What follows from another group is no news.
     let copies = found.clone();
@@ -95,6 +105,17 @@ pub fn invariants(domain: &Domain, traces: &[Trace]) -> Vec<Invariant> {
     });
     found.sort_by_key(|one| (std::cmp::Reverse(one.parts.len()), one.parts.clone()));
     found
+}
+
+/// Whether more than one object had a property.
+fn varied(traces: &[Trace], part: Part) -> bool {
+    let objects: BTreeSet<String> = traces
+        .iter()
+        .flat_map(|trace| trace.facts.iter().map(move |fact| (trace, fact)))
+        .filter(|(_, fact)| fact.predicate == part.predicate)
+        .map(|(trace, fact)| trace.objects[fact.arguments[0].index()].name.text.clone())
+        .collect();
+    objects.len() > 1
 }
 
 fn arity(domain: &Domain, part: Part) -> usize {
@@ -124,7 +145,8 @@ fn exchange(before: &Counts, after: &Counts, exchanged: &mut BTreeSet<(Part, Par
     let mut lost: BTreeMap<Option<ObjectId>, Vec<Part>> = BTreeMap::new();
     let mut won: BTreeMap<Option<ObjectId>, Vec<Part>> = BTreeMap::new();
     for key in keys {
-        let (was, is) = (before.get(key).copied().unwrap_or(0), after.get(key).copied().unwrap_or(0));
+        let (was, is) =
+            (before.get(key).copied().unwrap_or(0), after.get(key).copied().unwrap_or(0));
         if was > is {
             lost.entry(key.1).or_default().push(key.0);
         }
@@ -147,20 +169,32 @@ fn always(domain: &Domain, traces: &[Trace], all: &[Vec<Counts>], parts: &[Part]
     let fits = |trace: &Trace, object: ObjectId| {
         parts.iter().all(|part| {
             let Some(key) = part.key else { return false };
-            let wanted = &domain.predicates[part.predicate.index()].parameters[usize::from(key)].types;
+            let wanted =
+                &domain.predicates[part.predicate.index()].parameters[usize::from(key)].types;
             domain.has_type(&trace.objects[object.index()], wanted)
         })
     };
-    traces.iter().zip(all).all(|(trace, states)| {
+    let mut met: BTreeSet<Part> = BTreeSet::new();
+    let always = traces.iter().zip(all).all(|(trace, states)| {
         let objects: Vec<Option<ObjectId>> = if parts[0].key.is_none() {
             vec![None]
         } else {
-            (0..trace.objects.len() as u32).map(ObjectId).filter(|&id| fits(trace, id)).map(Some).collect()
+            (0..trace.objects.len() as u32)
+                .map(ObjectId)
+                .filter(|&id| fits(trace, id))
+                .map(Some)
+                .collect()
         };
         states.iter().all(|state| {
-            objects.iter().all(|&object| parts.iter().any(|&part| state.contains_key(&(part, object))))
+            objects.iter().all(|&object| {
+                let held = parts.iter().filter(|part| state.contains_key(&(**part, object)));
+                let held: Vec<Part> = held.copied().collect();
+                met.extend(&held);
+                !held.is_empty()
+            })
         })
-    })
+    });
+    always && parts.iter().all(|part| met.contains(part))
 }
 
 /// An invariant as an annotation without `;@`, such as `(:exactly-one (open ?drawer) (closed ?drawer))`.

@@ -8,10 +8,13 @@
 //! - [`segment`]: the activities in which each hand spends its time;
 //! - [`trace`]: symbolic states and the actions between them, and their text;
 //! - [`operators`]: from what was observed to a trace with named actions;
+//! - [`waypoints`]: how an action is carried out, as data;
 //! - [`rule`]: what the actions of traces demand and do;
 //! - [`invariant`]: which facts exclude each other;
 //! - [`write`](mod@write): what was learned as a domain;
-//! - [`extend`](mod@extend): what was learned as part of a domain that was there.
+//! - [`extend`](mod@extend): what was learned as part of a domain that was there;
+//! - [`moves`]: several who go to the same places;
+//! - [`problem`]: what was observed as a problem.
 
 pub mod log;
 pub mod truth;
@@ -19,7 +22,10 @@ pub mod observe;
 pub mod segment;
 pub mod trace;
 pub mod operators;
+pub mod waypoints;
 pub mod rule;
 pub mod invariant;
 pub mod write;
 pub mod extend;
+pub mod moves;
+pub mod problem;

@@ -4,7 +4,8 @@
 //! - [`deed`]: what each hand did, and which changes it brought about;
 //! - [`synergy`]: which deeds only go together;
 //! - [`words`], [`name`], [`line`]: the same as a trace in the words of a domain;
-//! - [`letter`]: algorithm 4 to the letter, for comparison.
+//! - [`letter`]: algorithm 4 to the letter, for comparison;
+//! - [`track`], [`routine`]: how each was done, as way points.
 
 pub mod record;
 pub mod deed;
@@ -13,6 +14,8 @@ pub mod words;
 mod name;
 pub mod line;
 pub mod letter;
+pub mod track;
+pub mod routine;
 
 use lang::model::Domain;
 
@@ -66,7 +69,7 @@ pub fn learn(
         lines.push((found, line));
     }
     let traces: Vec<_> = lines.iter().map(|(_, line)| line.trace.clone()).collect();
-    let mut learned = rule::learn(&lexicon.domain, &traces, &options.rule);
+    let mut learned = rule::learn(&lexicon.domain(), &traces, &options.rule);
     if options.agents {
         let told: Vec<(&Deeds, &Line)> = lines.iter().map(|(deeds, line)| (deeds, line)).collect();
         synergy::partners(&told, &mut learned);

@@ -1,7 +1,7 @@
 //! A record of a demonstration goes in; deeds come out: what each hand did, with what, when, and what changed by it.
 //!
 //! A time in which a hand holds something is cut in two where the thing rests on nothing: before that it is *taken*, after that it is *put*.
-//! What cannot be taken, because it is fixed like a drawer or because the words do not say that it is in a hand, is one deed from grip to release.
+//! What is not lifted, like a drawer, or cannot be said to be in a hand, is one deed from grip to release.
 //! Each change belongs to the hand that held what it is about, or else to the one that touched it, or else to the nearest that was near; never to the only one there is.
 
 use crate::log::{HandId, ObjectId};
@@ -56,6 +56,8 @@ pub struct Deed {
 pub struct Deeds {
     /// In the order of [`Deed::at`].
     pub deeds: Vec<Deed>,
+    /// What hands held, and when.
+    pub grips: Vec<Grip>,
     /// Changes that no hand was near enough to have done.
     pub strays: Vec<Turn>,
 }
@@ -64,6 +66,10 @@ pub struct Deeds {
 const NEAR: f64 = 0.15;
 /// A change belongs to a grip that ended so shortly before, or began so shortly after, in seconds.
 const LATE: f64 = 0.8;
+/// A way from one place to another takes so long at most, in seconds.
+const WAY: f64 = 1.5;
+/// Two sides of one change are seen within so many seconds.
+const SAME: f64 = 0.1;
 /// Changes that come so shortly after one another may be one deed, in seconds.
 const TOGETHER: f64 = 0.4;
 
@@ -76,25 +82,26 @@ pub fn deeds(record: &Record, mut takes: impl FnMut(HandId, ObjectId) -> bool) -
     let mut going: Vec<(HandId, &Turn)> = Vec::new();
     let mut strays = Vec::new();
     for turn in &record.changes {
-        if turn.told.ground.relation.of_hand() {
+        let ground = &turn.told.ground;
+        if ground.relation.of_hand() {
             continue;
         }
-        if let (Relation::At, Thing::Hand(hand)) =
-            (turn.told.ground.relation, turn.told.ground.things[0])
-        {
+        if let (Relation::At, Thing::Hand(hand)) = (ground.relation, ground.things[0]) {
             going.push((hand, turn));
             continue;
         }
-        let hands = responsible(turn);
+        // That something becomes clear or unblocked is only the other side of what left it, and belongs to that.
+        let cause = cause(record, turn);
+        let hands = responsible(cause);
         let Some(&first) = hands.first() else {
             strays.push(turn.clone());
             continue;
         };
-        let found = hands.iter().filter_map(|&hand| Some((hand, grip_of(&grips, hand, turn)?)));
+        let found = hands.iter().filter_map(|&hand| Some((hand, grip_of(&grips, hand, cause)?)));
         let mut found: Vec<(HandId, usize)> = found.collect();
         // The one that has in hand what the relation says something of does it; who holds the other thing helps.
         found.sort_by_key(|&(_, grip)| {
-            turn.told.ground.things[0] != Thing::Object(grips[grip].object)
+            cause.told.ground.things[0] != Thing::Object(grips[grip].object)
         });
         match found.first() {
             None => loose.push((first, turn)),
@@ -106,14 +113,14 @@ pub fn deeds(record: &Record, mut takes: impl FnMut(HandId, ObjectId) -> bool) -
     }
     let mut deeds = Vec::new();
     for (number, grip) in grips.iter().enumerate() {
-        let fixed = record.header.objects[grip.object.index()].fixed;
+        let lifted = own[number].iter().any(|turn| is_support(turn, grip.object));
         let helpers: Vec<(HandId, &Turn)> = shared
             .iter()
             .filter(|(of, _, _)| *of == number)
             .map(|&(_, hand, turn)| (hand, turn))
             .collect();
         let first = deeds.len();
-        if fixed || !takes(grip.hand, grip.object) {
+        if !(lifted && takes(grip.hand, grip.object)) {
             handle(record, grip, &own[number], &mut deeds);
         } else {
             take_and_put(record, grip, &own[number], &mut deeds);
@@ -125,7 +132,26 @@ pub fn deeds(record: &Record, mut takes: impl FnMut(HandId, ObjectId) -> bool) -
     push(record, &loose, &mut deeds);
     go(&going, &mut deeds);
     sequence(&mut deeds);
-    Deeds { deeds, strays }
+    Deeds { deeds, grips, strays }
+}
+
+/// What a change is the other side of: the beginning or end of the relation that covers or blocks the thing. Other changes are their own cause.
+fn cause<'r>(record: &'r Record, turn: &'r Turn) -> &'r Turn {
+    let causes: &[Relation] = match turn.told.ground.relation {
+        Relation::Clear => &[Relation::OnTop, Relation::At],
+        Relation::Unblocked => &[Relation::Blocks],
+        _ => return turn,
+    };
+    let thing = turn.told.ground.things[0];
+    record
+        .changes
+        .iter()
+        .filter(|other| causes.contains(&other.told.ground.relation) && other.holds != turn.holds)
+        .filter(|other| other.told.ground.things[1] == thing)
+        .map(|other| ((other.time - turn.time).abs(), other))
+        .filter(|(away, _)| *away <= SAME)
+        .min_by(|one, other| one.0.total_cmp(&other.0))
+        .map_or(turn, |(_, other)| other)
 }
 
 /// The hands that did a change: those that held what it is about, or else those that touched it, or else the nearest that was near.
@@ -141,11 +167,12 @@ pub(super) fn responsible(turn: &Turn) -> Vec<HandId> {
     if !touching.is_empty() {
         return touching;
     }
-    let nearest = turn
-        .credits
-        .iter()
-        .filter(|credit| credit.distance <= NEAR)
-        .min_by(|one, other| (!one.acts, one.distance).partial_cmp(&(!other.acts, other.distance)).expect("distances are numbers"));
+    let nearest =
+        turn.credits.iter().filter(|credit| credit.distance <= NEAR).min_by(|one, other| {
+            (!one.acts, one.distance)
+                .partial_cmp(&(!other.acts, other.distance))
+                .expect("distances are numbers")
+        });
     nearest.map(|credit| credit.hand).into_iter().collect()
 }
 
@@ -192,7 +219,9 @@ fn take_and_put(record: &Record, grip: &Grip, turns: &[&Turn], deeds: &mut Vec<D
     let support = || turns.iter().filter(|turn| is_support(turn, grip.object));
     // What a hand has just taken may still seem to rest for a moment: what ends is part of taking, as long as it rests on nothing new.
     let settled = support()
-        .filter(|turn| turn.holds && turn.time > grip.from + TOGETHER.min((grip.to - grip.from) / 2.0))
+        .filter(|turn| {
+            turn.holds && turn.time > grip.from + TOGETHER.min((grip.to - grip.from) / 2.0)
+        })
         .map(|turn| turn.time)
         .reduce(f64::min)
         .unwrap_or(f64::INFINITY);
@@ -202,7 +231,8 @@ fn take_and_put(record: &Record, grip: &Grip, turns: &[&Turn], deeds: &mut Vec<D
         .reduce(f64::max)
         .unwrap_or(grip.from)
         .max(grip.from);
-    let parted = (lifted + TOGETHER).min((lifted + settled.min(grip.to.max(lifted))) / 2.0).max(lifted);
+    let parted =
+        (lifted + TOGETHER).min((lifted + settled.min(grip.to.max(lifted))) / 2.0).max(lifted);
     let mut taking = Vec::new();
     let mut putting = Vec::new();
     let mut using: Vec<&Turn> = Vec::new();
@@ -222,7 +252,8 @@ fn take_and_put(record: &Record, grip: &Grip, turns: &[&Turn], deeds: &mut Vec<D
         // What the hand itself is said to do changes with the grip.
         record.changes.iter().filter(move |turn| {
             let relation = turn.told.ground.relation;
-            let grips = relation == Relation::InHand && turn.told.ground.things[0] == Thing::Object(grip.object);
+            let grips = relation == Relation::InHand
+                && turn.told.ground.things[0] == Thing::Object(grip.object);
             let time = if holds { grip.from } else { grip.to };
             turn.told.ground.things.contains(&hand)
                 && (turn.time - time).abs() < 1e-9
@@ -297,7 +328,9 @@ fn help(
     if turn.time < grip.from || turn.time > grip.to {
         return;
     }
-    let mine = |deed: &Deed| deed.changes.iter().any(|(told, holds)| *told == turn.told && *holds == turn.holds);
+    let mine = |deed: &Deed| {
+        deed.changes.iter().any(|(told, holds)| *told == turn.told && *holds == turn.holds)
+    };
     let Some(main) = (first..deeds.len()).find(|&place| mine(&deeds[place])) else { return };
     let there = deeds[main].with.iter().any(|&other| deeds[other].hand == hand);
     if there {
@@ -311,7 +344,8 @@ fn help(
         also: deeds[main].object.into_iter().collect(),
         from: record.begin(hand, grip.from),
         to: deeds[main].to,
-        at: deeds[main].at,
+        // It demands what holds before the deed that it helps, so it stands before that.
+        at: deeds[main].at - 1e-6,
         with: vec![main],
     };
     deeds.push(deed);
@@ -343,30 +377,34 @@ fn push(record: &Record, loose: &[(HandId, &Turn)], deeds: &mut Vec<Deed>) {
     }
 }
 
-/// How hands went from place to place.
+/// How hands went from place to place. Who leaves a place and is at no other for a while has left it for good.
 fn go(going: &[(HandId, &Turn)], deeds: &mut Vec<Deed>) {
     let mut hands: Vec<HandId> = going.iter().map(|&(hand, _)| hand).collect();
     hands.sort_unstable();
     hands.dedup();
     for hand in hands {
-        let mut changes: Vec<(Told, bool)> = Vec::new();
-        let mut from = None;
-        for turn in going.iter().filter(|(of, _)| *of == hand).map(|&(_, turn)| turn) {
-            from.get_or_insert(turn.time);
-            changes.push((turn.told.clone(), turn.holds));
-            if turn.holds {
-                deeds.push(Deed {
-                    verb: Verb::Go,
-                    hand,
-                    object: None,
-                    changes: std::mem::take(&mut changes),
-                    also: Vec::new(),
-                    from: from.take().unwrap_or(turn.time),
-                    to: turn.time,
-                    at: turn.time,
-                    with: Vec::new(),
-                });
+        let turns: Vec<&Turn> =
+            going.iter().filter(|(of, _)| *of == hand).map(|&(_, turn)| turn).collect();
+        let mut pending: Vec<&Turn> = Vec::new();
+        for (place, &turn) in turns.iter().enumerate() {
+            pending.push(turn);
+            let next = turns.get(place + 1);
+            let goes_on = !turn.holds && next.is_some_and(|next| next.time - turn.time <= WAY);
+            if goes_on {
+                continue;
             }
+            deeds.push(Deed {
+                verb: Verb::Go,
+                hand,
+                object: None,
+                changes: pending.iter().map(|turn| (turn.told.clone(), turn.holds)).collect(),
+                also: Vec::new(),
+                from: pending[0].time,
+                to: turn.time,
+                at: turn.time,
+                with: Vec::new(),
+            });
+            pending.clear();
         }
     }
 }

@@ -45,7 +45,9 @@ pub fn learn(
     for (record, words) in demonstrations {
         let objects = lexicon.objects(&record.header, words);
         for entry in buffer(record, tree) {
-            let Some(shape) = shape(&entry, record, words, &mut lexicon, &objects) else { continue };
+            let Some(shape) = shape(&entry, record, words, &mut lexicon, &objects) else {
+                continue;
+            };
             let place = collected.iter().position(|(other, _, _)| *other == shape);
             let place = place.unwrap_or_else(|| {
                 collected.push((shape, 0, BTreeMap::new()));
@@ -65,7 +67,13 @@ pub fn learn(
         let action = declare_action(&mut lexicon.domain, &name, &types, false);
         actions.push(operator(action, count, sources, &before, &after));
     }
-    Learned { domain: lexicon.domain, rule: Rule::Changed, actions, refused: Vec::new(), strays: 0 }
+    Learned {
+        domain: lexicon.domain(),
+        rule: Rule::Changed,
+        actions,
+        refused: Vec::new(),
+        strays: 0,
+    }
 }
 
 /// Lines 2 to 16: the operators of one demonstration.

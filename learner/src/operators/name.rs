@@ -36,7 +36,9 @@ pub fn name(header: &Header, deed: &Deed) -> String {
     };
     let begun = |relation: Relation| {
         deed.changes.iter().find_map(|(told, holds)| match told.ground.things.first() {
-            Some(&Thing::Object(thing)) if *holds && told.ground.relation == relation => Some(thing),
+            Some(&Thing::Object(thing)) if *holds && told.ground.relation == relation => {
+                Some(thing)
+            }
             _ => None,
         })
     };
@@ -57,14 +59,18 @@ pub fn name(header: &Header, deed: &Deed) -> String {
             let closed = begun(Relation::Closed).map(|thing| ("close", thing));
             if let Some((verb, thing)) = opened.or(closed) {
                 words.extend([verb.to_owned(), kind(thing)]);
-                words.extend(what.filter(|what| *what != kind(thing)).map(|what| format!("with-{what}")));
+                words.extend(
+                    what.filter(|what| *what != kind(thing)).map(|what| format!("with-{what}")),
+                );
             } else if deed.verb == Verb::Use {
                 words.push("use".to_owned());
                 words.extend(what);
-                let on = deed.changes.iter().flat_map(|(told, _)| &told.ground.things).find_map(|thing| match thing {
-                    Thing::Object(thing) if Some(*thing) != deed.object => Some(kind(*thing)),
-                    _ => None,
-                });
+                let on = deed.changes.iter().flat_map(|(told, _)| &told.ground.things).find_map(
+                    |thing| match thing {
+                        Thing::Object(thing) if Some(*thing) != deed.object => Some(kind(*thing)),
+                        _ => None,
+                    },
+                );
                 words.extend(on.map(|on| format!("on-{on}")));
             } else {
                 words.push(if deed.verb == Verb::Push { "push" } else { "move" }.to_owned());
@@ -72,7 +78,15 @@ pub fn name(header: &Header, deed: &Deed) -> String {
                 words.extend(support(true).or_else(|| support(false)));
             }
         }
-        Verb::Go => words.push("move".to_owned()),
+        Verb::Go => {
+            let some = |wanted: bool| deed.changes.iter().any(|(_, holds)| *holds == wanted);
+            let word = match (some(false), some(true)) {
+                (true, true) => "move",
+                (false, _) => "enter",
+                (true, false) => "leave",
+            };
+            words.push(word.to_owned());
+        }
         Verb::Hold => {
             words.push("hold".to_owned());
             words.extend(what);

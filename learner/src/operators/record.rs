@@ -110,11 +110,8 @@ impl Recorder {
                 self.now.insert(told);
                 continue;
             }
-            let news = if change.holds {
-                self.now.insert(told.clone())
-            } else {
-                self.now.remove(&told)
-            };
+            let news =
+                if change.holds { self.now.insert(told.clone()) } else { self.now.remove(&told) };
             if news {
                 record.changes.push(Turn {
                     time,

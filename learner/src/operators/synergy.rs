@@ -87,9 +87,7 @@ fn overlap(one: &Deed, other: &Deed) -> f64 {
 
 /// What another hand held all through a deed.
 fn holding<'g>(grips: &'g [Grip], deed: &Deed) -> Option<&'g Grip> {
-    grips.iter().find(|grip| {
-        grip.hand != deed.hand && grip.from <= deed.from && grip.to >= deed.to
-    })
+    grips.iter().find(|grip| grip.hand != deed.hand && grip.from <= deed.from && grip.to >= deed.to)
 }
 
 /// Whether all hands but idle ones were in teach mode in the middle of a deed, and more than one was.
@@ -98,9 +96,7 @@ fn taught(record: &Record, deed: &Deed) -> bool {
     let on = record
         .hands
         .iter()
-        .filter(|runs| {
-            runs.iter().any(|run| run.teach && run.from <= middle && middle <= run.to)
-        })
+        .filter(|runs| runs.iter().any(|run| run.teach && run.from <= middle && middle <= run.to))
         .count();
     on > 1
 }

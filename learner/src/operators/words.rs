@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 
 use lang::model::{Domain, ObjectId, PredicateId, TypeId};
 
-use crate::log::{self, Fact, HandId, Header};
 use super::record::Told;
+use crate::log::{self, Fact, HandId, Header};
 use crate::observe::{Ground, Relation, Thing, Vocabulary};
-use crate::trace::vocabulary::{declare_predicate, declare_type, empty, find_object, object};
+use crate::trace::vocabulary::{
+    declare_predicate, declare_type, empty, find_object, object, variables,
+};
 
 /// Which hands act, under which names, and how what they do is said.
 #[derive(Debug, Clone)]
@@ -48,6 +50,15 @@ impl Words {
         for hand in hands {
             self.actors[hand.index()].as_ref()?;
             if !self.names_hands() && acting.is_some_and(|acting| acting != hand) {
+                return None;
+            }
+        }
+        // How far a hand gets is a matter of places; of a thing it changes with every place that the thing is brought to.
+        if let (Relation::Reachable, Thing::Object(object)) =
+            (told.ground.relation, told.ground.things[0])
+        {
+            let what = &header.objects[object.index()];
+            if !what.fixed && !what.region {
                 return None;
             }
         }
@@ -151,12 +162,12 @@ impl Lexicon {
         let arguments: Option<Vec<ObjectId>> =
             fact.arguments.iter().map(|name| find_object(objects, name)).collect();
         let arguments = arguments?;
-        let types: Vec<TypeId> =
-            arguments.iter().map(|id| objects[id.index()].types[0]).collect();
+        let types: Vec<TypeId> = arguments.iter().map(|id| objects[id.index()].types[0]).collect();
         let key = fact.predicate.to_ascii_lowercase();
         let Some(&predicate) = self.predicates.get(&key) else {
             if self.closed {
-                *self.missing.entry(format!("the predicate `{}`", fact.predicate)).or_default() += 1;
+                *self.missing.entry(format!("the predicate `{}`", fact.predicate)).or_default() +=
+                    1;
                 return None;
             }
             let types: Vec<Vec<TypeId>> = types.into_iter().map(|one| vec![one]).collect();
@@ -180,7 +191,8 @@ impl Lexicon {
             }
             wider.push(if fits { variable.types[0] } else { self.common(variable.types[0], of) });
         }
-        for (variable, of) in self.domain.predicates[predicate.index()].parameters.iter_mut().zip(wider)
+        for (variable, of) in
+            self.domain.predicates[predicate.index()].parameters.iter_mut().zip(wider)
         {
             variable.types = vec![of];
         }
@@ -216,6 +228,22 @@ impl Lexicon {
             .is_some_and(|fact| self.fact(objects, &fact).is_some());
         self.missing = known;
         found
+    }
+}
+
+impl Lexicon {
+    /// The domain, in which the parameters of predicates are named after their types as these are now.
+    pub fn domain(&self) -> Domain {
+        let mut domain = self.domain.clone();
+        if !self.closed {
+            for place in 0..domain.predicates.len() {
+                let parameters = &domain.predicates[place].parameters;
+                let types: Vec<Vec<TypeId>> =
+                    parameters.iter().map(|variable| variable.types.clone()).collect();
+                domain.predicates[place].parameters = variables(&domain, &types);
+            }
+        }
+        domain
     }
 }
 

@@ -1,0 +1,312 @@
+//! Deeds with the tracks of hands and objects go in; routines come out, by which a robot or a world can do the same with other objects.
+//!
+//! A way is kept as few way points: those from which it departs by little (Ramer 1972, Douglas and Peucker 1973), seen from the thing that it is about.
+
+use nalgebra::{Isometry3, Translation3, Vector3};
+
+use crate::log::{HandId, Header, ObjectId};
+use crate::observe::{Relation, Thing};
+use crate::rule::Learned;
+use crate::waypoints::{Anchor, Doer, Routine, WayPoint};
+
+use super::deed::{Deed, Deeds, Verb};
+use super::line::{Instance, Line};
+use super::track::Tracks;
+
+/// How far a way may depart from its way points, in metres; a radian counts as 15 cm.
+const TOLERANCE: f64 = 0.012;
+/// What a turn of a radian counts as, in metres.
+const RADIAN: f64 = 0.15;
+/// The way of a hand is looked at in steps of so much, in seconds.
+const STEP: f64 = 1.0 / 30.0;
+/// Of the way to a thing, and away from one, so much is part of the routine, in seconds.
+const APPROACH: f64 = 0.9;
+const RETREAT: f64 = 0.7;
+
+/// One demonstration, with where everything was.
+#[derive(Debug, Clone, Copy)]
+pub struct Shown<'a> {
+    /// What was tracked.
+    pub header: &'a Header,
+    /// Where it was.
+    pub tracks: &'a Tracks,
+    /// What was done.
+    pub deeds: &'a Deeds,
+    /// The same in the words of the domain.
+    pub line: &'a Line,
+    /// The argument of each action is a hand, or the words do not say which hand acts.
+    pub names_hands: bool,
+}
+
+/// A routine for each action that was learned, from the first demonstration in which its whole way was seen.
+pub fn routines(shown: &[Shown<'_>], learned: &Learned) -> Vec<Routine> {
+    let mut routines = Vec::new();
+    for action in &learned.actions {
+        let found = shown.iter().find_map(|one| {
+            let instances = one.line.instances.iter();
+            instances
+                .filter(|instance| instance.action == action.action)
+                .find_map(|instance| routine(one, learned, instance))
+        });
+        routines.extend(found);
+    }
+    routines
+}
+
+/// How one deed was done.
+fn routine(shown: &Shown<'_>, learned: &Learned, instance: &Instance) -> Option<Routine> {
+    let deed = &shown.deeds.deeds[instance.deed];
+    let action = &learned.domain.actions[instance.action.index()];
+    let parameters = action.scope.variables.iter().map(|one| one.name.text.clone()).collect();
+    let of = |object: ObjectId| {
+        let name = &shown.header.objects[object.index()].name;
+        let named = |id: &lang::model::ObjectId| {
+            shown.line.trace.objects[id.index()].name.text.eq_ignore_ascii_case(name)
+        };
+        instance.arguments.iter().position(named).map(|place| place as u32)
+    };
+    let doer = if shown.names_hands || action.agent { Doer::Argument(0) } else { Doer::Any };
+    let mut scribe = Scribe { shown, hand: deed.hand, begin: deed.from, points: Vec::new() };
+    match deed.verb {
+        Verb::Take => {
+            let object = deed.object?;
+            let anchor = Anchor::Middle(of(object)?);
+            let base = shown.tracks.object(object, deed.from)?;
+            let start = deed.from.max(deed.at - APPROACH);
+            scribe.way(start, deed.at, base, anchor, false)?;
+            scribe.way(deed.at, deed.to.max(deed.at + STEP), base, anchor, true)?;
+        }
+        Verb::Put => {
+            let object = deed.object?;
+            let (support, anchor) = support(shown, deed, &of)?;
+            let size = shown.header.objects[support.index()].size;
+            let base = shown.tracks.object(support, deed.from)? * lifted(size.z / 2.0);
+            let start = deed.from.max(deed.at - 1.5 * APPROACH);
+            scribe.carried(start, deed.at, object, of(object)?, base, anchor)?;
+            scribe.away(deed.at, base, anchor)?;
+        }
+        Verb::Handle | Verb::Use | Verb::Push => {
+            let object = deed.object?;
+            let anchor = Anchor::Middle(of(object)?);
+            let base = shown.tracks.object(object, deed.from)?;
+            let grip = shown.grip(deed.hand, object, deed);
+            if let Some((from, to)) = grip {
+                scribe.way(deed.from.max(from - APPROACH), from, base, anchor, false)?;
+                scribe.way(from, to, base, anchor, true)?;
+                scribe.away(to, base, anchor)?;
+            } else {
+                scribe.way(
+                    deed.from,
+                    deed.to.max(deed.from + STEP),
+                    base,
+                    anchor,
+                    deed.verb == Verb::Use,
+                )?;
+            }
+        }
+        Verb::Go => {
+            let place =
+                deed.changes.iter().rev().find_map(|(told, _)| match told.ground.things[1] {
+                    Thing::Object(object) => Some(object),
+                    Thing::Hand(_) => None,
+                })?;
+            let base = shown.tracks.object(place, deed.from)?;
+            let pose = shown.tracks.hand(deed.hand, deed.to)?;
+            scribe.begin = deed.from.min(deed.to - STEP);
+            scribe.point(deed.to, base, pose, Anchor::Middle(of(place)?), None, None);
+        }
+        Verb::Hold => {
+            scribe.points.push(WayPoint {
+                hand: 0,
+                carried: None,
+                anchor: Anchor::Hand(0),
+                offset: Isometry3::identity(),
+                grip: true,
+                time: (deed.to - deed.from).max(0.0),
+            });
+        }
+    }
+    let points = scribe.points;
+    Some(Routine { action: action.name.text.clone(), parameters, hands: vec![doer], points })
+}
+
+/// What a thing was put on or in, and from where its place is seen: a place, or else a thing; on a table anywhere that is free.
+fn support(
+    shown: &Shown<'_>,
+    deed: &Deed,
+    of: &dyn Fn(ObjectId) -> Option<u32>,
+) -> Option<(ObjectId, Anchor)> {
+    let main = Thing::Object(deed.object?);
+    let mut found: Vec<(bool, Relation, ObjectId)> = deed
+        .changes
+        .iter()
+        .filter(|(told, holds)| *holds && told.ground.things[0] == main)
+        .filter_map(|(told, _)| match (told.ground.relation, told.ground.things.get(1)) {
+            (
+                relation @ (Relation::OnTop | Relation::Inside | Relation::At),
+                Some(Thing::Object(on)),
+            ) => {
+                let what = &shown.header.objects[on.index()];
+                Some((what.fixed && !what.region, relation, *on))
+            }
+            _ => None,
+        })
+        .filter(|(_, _, on)| of(*on).is_some())
+        .collect();
+    found.sort_unstable();
+    let (furniture, relation, on) = *found.first()?;
+    let place = of(on)?;
+    let anchor = if furniture && relation == Relation::OnTop {
+        Anchor::Free(place)
+    } else {
+        Anchor::Top(place)
+    };
+    Some((on, anchor))
+}
+
+fn lifted(height: f64) -> Translation3<f64> {
+    Translation3::new(0.0, 0.0, height)
+}
+
+impl Shown<'_> {
+    /// When a hand held something during a deed.
+    fn grip(&self, hand: HandId, object: ObjectId, deed: &Deed) -> Option<(f64, f64)> {
+        let grips = self.deeds.grips.iter();
+        grips
+            .filter(|grip| grip.hand == hand && grip.object == object)
+            .find(|grip| grip.from <= deed.to && grip.to >= deed.from)
+            .map(|grip| (grip.from, grip.to))
+    }
+}
+
+/// Writes way points down.
+struct Scribe<'a> {
+    shown: &'a Shown<'a>,
+    hand: HandId,
+    begin: f64,
+    points: Vec<WayPoint>,
+}
+
+impl Scribe<'_> {
+    /// Keeps where the hand, or what it carries, is at a time.
+    fn point(
+        &mut self,
+        time: f64,
+        base: Isometry3<f64>,
+        pose: Isometry3<f64>,
+        anchor: Anchor,
+        carried: Option<u32>,
+        grip: Option<bool>,
+    ) {
+        let grip = grip.unwrap_or_else(|| {
+            let grips = self.shown.deeds.grips.iter();
+            grips
+                .filter(|grip| grip.hand == self.hand)
+                .any(|grip| grip.from <= time && time < grip.to)
+        });
+        self.points.push(WayPoint {
+            hand: 0,
+            carried,
+            anchor,
+            offset: base.inverse() * pose,
+            grip,
+            time: (time - self.begin).max(0.0),
+        });
+    }
+
+    /// The way of the hand between two times.
+    fn way(
+        &mut self,
+        from: f64,
+        to: f64,
+        base: Isometry3<f64>,
+        anchor: Anchor,
+        grip: bool,
+    ) -> Option<()> {
+        let poses = samples(from, to, |time| self.shown.tracks.hand(self.hand, time))?;
+        for (time, pose) in simplified(&poses) {
+            self.point(time, base, pose, anchor, None, Some(grip));
+        }
+        Some(())
+    }
+
+    /// The way of the foot of what the hand carries, until it lets go.
+    fn carried(
+        &mut self,
+        from: f64,
+        to: f64,
+        object: ObjectId,
+        argument: u32,
+        base: Isometry3<f64>,
+        anchor: Anchor,
+    ) -> Option<()> {
+        let tracks = self.shown.tracks;
+        let foot = -self.shown.header.objects[object.index()].size.z / 2.0;
+        // What is in the hand moves with it, and hands are tracked more densely.
+        let held =
+            tracks.hand(self.hand, to - STEP)?.inverse() * tracks.object(object, to + RETREAT)?;
+        let poses =
+            samples(from, to, |time| Some(tracks.hand(self.hand, time)? * held * lifted(foot)))?;
+        for (time, pose) in simplified(&poses) {
+            self.point(time, base, pose, anchor, Some(argument), Some(true));
+        }
+        Some(())
+    }
+
+    /// Lets go, and the way of the hand afterwards.
+    fn away(&mut self, from: f64, base: Isometry3<f64>, anchor: Anchor) -> Option<()> {
+        let poses = samples(from, from + RETREAT, |time| self.shown.tracks.hand(self.hand, time))?;
+        for (time, pose) in simplified(&poses) {
+            self.point(time, base, pose, anchor, None, Some(false));
+        }
+        Some(())
+    }
+}
+
+/// A way in steps of equal time, with both ends.
+fn samples(
+    from: f64,
+    to: f64,
+    at: impl Fn(f64) -> Option<Isometry3<f64>>,
+) -> Option<Vec<(f64, Isometry3<f64>)>> {
+    let steps = ((to - from) / STEP).ceil().max(1.0) as u32;
+    let poses = (0..=steps).filter_map(|step| {
+        let time = from + (to - from) * f64::from(step) / f64::from(steps);
+        Some((time, at(time)?))
+    });
+    let poses: Vec<_> = poses.collect();
+    (poses.len() > 1).then_some(poses)
+}
+
+/// The few poses from which a way departs by little.
+fn simplified(poses: &[(f64, Isometry3<f64>)]) -> Vec<(f64, Isometry3<f64>)> {
+    let mut keep = vec![false; poses.len()];
+    keep[0] = true;
+    keep[poses.len() - 1] = true;
+    let mut spans = vec![(0, poses.len() - 1)];
+    while let Some((from, to)) = spans.pop() {
+        let worst = (from + 1..to)
+            .map(|place| (away(&poses[place].1, &poses[from].1, &poses[to].1), place))
+            .max_by(|one, other| one.0.total_cmp(&other.0));
+        if let Some((distance, place)) = worst
+            && distance > TOLERANCE
+        {
+            keep[place] = true;
+            spans.extend([(from, place), (place, to)]);
+        }
+    }
+    poses.iter().zip(keep).filter(|(_, keep)| *keep).map(|(pose, _)| *pose).collect()
+}
+
+/// How far a pose is from the straight way between two others.
+fn away(pose: &Isometry3<f64>, from: &Isometry3<f64>, to: &Isometry3<f64>) -> f64 {
+    let line: Vector3<f64> = to.translation.vector - from.translation.vector;
+    let offset = pose.translation.vector - from.translation.vector;
+    let turn = from.rotation.angle_to(&to.rotation);
+    let length = line.norm_squared() + (turn * RADIAN).powi(2);
+    let along = offset.dot(&line) + from.rotation.angle_to(&pose.rotation) * turn * RADIAN * RADIAN;
+    let share = if length > 0.0 { (along / length).clamp(0.0, 1.0) } else { 0.0 };
+    let between = from.lerp_slerp(to, share);
+    let place = (pose.translation.vector - between.translation.vector).norm();
+    place.hypot(between.rotation.angle_to(&pose.rotation) * RADIAN)
+}
