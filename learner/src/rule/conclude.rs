@@ -66,8 +66,8 @@ fn one(
         shared: &shared,
     };
     let guard = match guarding.guard() {
+        _ if lenient => Guard::default(),
         Ok(guard) => guard,
-        Err(_) if lenient => Guard::default(),
         Err(unclear) => return Err(reason(evidence, settled, unclear)),
     };
     let status = |list: &[Status], at: usize| list[record.first as usize + at];

@@ -93,13 +93,13 @@ impl Guarding<'_> {
         if self.shared[at] && settled == Status::Open { Status::Yes } else { settled }
     }
 
-    /// Whether some change may be its doing, or another's.
+    /// Whether something was deleted, and it is not clear whether by this or by another.
     fn disputed(&self, at: usize) -> bool {
         let literal = self.id(at);
         self.settled
             .open
             .iter()
-            .any(|clause| clause.claim != Claim::Adds && clause.literals.contains(&literal))
+            .any(|clause| clause.claim == Claim::Deletes && clause.literals.contains(&literal))
     }
 
     /// Whether it may be deleted where it holds. What an action does not demand, and what nothing speaks for, it is taken not to delete.
