@@ -16,6 +16,10 @@ pub(super) struct Guard {
     pub(super) distinct: Vec<(Term, Term)>,
     /// Which atoms must not hold, since it is not clear whether they are deleted.
     pub(super) absent: Vec<usize>,
+    /// Which atoms are added: of all that are the same fact under the guard one that stands for them.
+    pub(super) adds: Vec<usize>,
+    /// Which are deleted, in the same way.
+    pub(super) deletes: Vec<usize>,
 }
 
 /// A possible effect that stays unclear.
@@ -48,6 +52,7 @@ impl Guarding<'_> {
             let harm = classes.iter().find_map(|class| self.harm(class, &guard));
             let Some(unclear) = harm else {
                 self.keep_apart(&classes, &mut guard);
+                self.settle(&classes, &mut guard);
                 return Ok(guard);
             };
             if self.unite(unclear, &mut guard) {
@@ -77,6 +82,20 @@ impl Guarding<'_> {
             }
         }
         classes.into_iter().map(|(_, class)| class).collect()
+    }
+
+    /// Notes the effects that come because all that may have them is the same fact.
+    fn settle(&self, classes: &[Vec<usize>], guard: &mut Guard) {
+        for class in classes.iter().filter(|class| class.len() > 1) {
+            if class.iter().any(|at| self.adds(*at) == Status::Yes) {
+                continue;
+            }
+            if self.whole_clause(class, Claim::Adds) {
+                guard.adds.push(class[0]);
+            } else if self.whole_clause(class, Claim::Deletes) {
+                guard.deletes.push(class[0]);
+            }
+        }
     }
 
     fn id(&self, at: usize) -> LiteralId {

@@ -95,8 +95,8 @@ fn given_agents_and_objects_are_held_to() {
         [
             "1:10: unknown object `left`",
             "1:22: `bench` in `on` is not of the type cube",
-            "1:48: unknown object `left`",
             "1:36: here are 1 actions of 2 agents",
+            "1:48: unknown object `left`",
         ]
     );
 }
