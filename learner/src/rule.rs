@@ -11,6 +11,7 @@
 //! With [`Options::negative`] the promise holds for all actions of STRIPS with negative preconditions.
 //! Several parameters may have been bound to one object: what then remains unclear is kept out of the model by `=` and `(not (= …))`
 //! in the precondition, or the action is refused.
+//! Joint steps are as safe where no part destroys what another demands, and no action adds what it demands.
 //!
 //! [`Evidence`] is all that is kept of the examples; it can be added to at any time.
 
@@ -42,6 +43,18 @@ pub enum Rule {
     Both,
 }
 
+/// When an action demands that another agent takes another one at the same time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Company {
+    /// Never: an action of which it is not clear whether an effect is its own is refused.
+    #[default]
+    Never,
+    /// Where an effect never came without another part that may have been the cause: one that all objects of the effect are arguments of.
+    Unclear,
+    /// Also where an effect never came without another part that one object of the effect is an argument of, such as what another hand holds.
+    Together,
+}
+
 /// How to learn.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Options {
@@ -51,8 +64,8 @@ pub struct Options {
     pub negative: bool,
     /// The share of the examples, from 0 to below 0.5, that may be outvoted by the others.
     pub tolerance: f64,
-    /// Where an effect cannot be credited to one of the actions of several agents, make them demand each other; otherwise they are refused.
-    pub joint: bool,
+    /// When actions of several agents demand each other.
+    pub joint: Company,
 }
 
 /// What was learned.

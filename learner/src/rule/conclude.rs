@@ -5,7 +5,7 @@ use lang::model::{ActionId, Atom};
 use super::evidence::{Claim, Evidence, LiteralId, Record};
 use super::guard::{Guard, Guarding, Unclear};
 use super::settle::{Settled, Status, settle};
-use super::{Action, Doubt, Learned, Options, Reason, Refusal, Rule, partner};
+use super::{Action, Company, Doubt, Learned, Options, Reason, Refusal, Rule, partner};
 
 /// Draws all conclusions.
 pub(super) fn conclude(evidence: &Evidence, options: &Options) -> Learned {
@@ -54,8 +54,10 @@ fn one(
     let absent =
         |at: &usize| options.negative && record.counts[*at].held <= spared && !required[*at];
     let none = || (Vec::new(), vec![false; record.atoms.len()]);
-    let (partners, shared) =
-        if options.joint { partner::partners(evidence, settled, record) } else { none() };
+    let (partners, shared) = match options.joint {
+        Company::Never => none(),
+        company => partner::partners(evidence, settled, record, company),
+    };
     let guarding = Guarding {
         evidence,
         settled,
@@ -66,8 +68,8 @@ fn one(
         shared: &shared,
     };
     let guard = match guarding.guard() {
+        _ if lenient => Guard::default(),
         Ok(guard) => guard,
-        Err(_) if lenient => Guard::default(),
         Err(unclear) => return Err(reason(evidence, settled, unclear)),
     };
     let status = |list: &[Status], at: usize| list[record.first as usize + at];
@@ -75,8 +77,12 @@ fn one(
     let pick = |test: &dyn Fn(&usize) -> bool| -> Vec<Atom> {
         all.clone().filter(test).map(|at| record.atoms[at].clone()).collect()
     };
-    let adds = |at: &usize| effect(status(&settled.adds, *at), shared[*at]);
-    let deletes = |at: &usize| !adds(at) && effect(status(&settled.deletes, *at), shared[*at]);
+    let adds =
+        |at: &usize| effect(status(&settled.adds, *at), shared[*at]) || guard.adds.contains(at);
+    let deletes = |at: &usize| {
+        !adds(at)
+            && (effect(status(&settled.deletes, *at), shared[*at]) || guard.deletes.contains(at))
+    };
     let doubt = |at: usize| Doubt {
         atom: record.atoms[at].clone(),
         seen: record.counts[at].held,
@@ -91,11 +97,11 @@ fn one(
         required: pick(&|at| required[*at]),
         changed: pick(&|at| required[*at] && deletes(at)),
         absent: pick(&|at| absent(at) || guard.absent.contains(at)),
-        same: guard.same,
-        distinct: guard.distinct,
         adds: pick(&adds),
         deletes: pick(&deletes),
         doubts: doubtful.map(doubt).collect(),
+        same: guard.same.clone(),
+        distinct: guard.distinct.clone(),
         partners,
     })
 }

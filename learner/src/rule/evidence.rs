@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use lang::model::{ActionId, Atom, Domain, ObjectId, Term};
+use lang::model::{ActionId, Atom, Domain, Fact, ObjectId, Term};
 use lang::plan::Step;
 
 use super::candidate;
@@ -59,6 +59,8 @@ pub(super) struct Count {
     pub(super) undeleted: u32,
     /// It changed, and no other part of the joint step can be about it.
     pub(super) alone: u32,
+    /// It changed, and no other part of the joint step is about any object of it.
+    pub(super) apart: u32,
 }
 
 /// What was seen of an action.
@@ -91,6 +93,8 @@ pub struct Evidence {
     pub(super) clauses: BTreeMap<Clause, u32>,
     /// For a literal that changed while another part could be about it: which part, and how often.
     pub(super) company: BTreeMap<LiteralId, BTreeMap<Tie, u32>>,
+    /// The same for parts that some object of the change is an argument of.
+    pub(super) contact: BTreeMap<LiteralId, BTreeMap<Tie, u32>>,
     pub(super) usual: Vec<Usual>,
     pub(super) strays: u32,
 }
@@ -124,6 +128,7 @@ impl Evidence {
             records,
             clauses: BTreeMap::new(),
             company: BTreeMap::new(),
+            contact: BTreeMap::new(),
             usual,
             strays: 0,
         }
@@ -171,15 +176,20 @@ impl Evidence {
                 count.unadded += more.unadded;
                 count.undeleted += more.undeleted;
                 count.alone += more.alone;
+                count.apart += more.apart;
             }
         }
         for (clause, weight) in &other.clauses {
             *self.clauses.entry(clause.clone()).or_default() += weight;
         }
-        for (literal, ties) in &other.company {
-            let known = self.company.entry(*literal).or_default();
-            for (tie, weight) in ties {
-                *known.entry(tie.clone()).or_default() += weight;
+        for (mine, theirs) in
+            [(&mut self.company, &other.company), (&mut self.contact, &other.contact)]
+        {
+            for (literal, ties) in theirs {
+                let known = mine.entry(*literal).or_default();
+                for (tie, weight) in ties {
+                    *known.entry(tie.clone()).or_default() += weight;
+                }
             }
         }
         for (usual, more) in self.usual.iter_mut().zip(&other.usual) {
@@ -205,6 +215,7 @@ impl Evidence {
             counted.added += if adds { count } else { 0 };
             counted.deleted += if deletes && !adds { count } else { 0 };
             counted.alone += if adds || deletes { count } else { 0 };
+            counted.apart += if adds || deletes { count } else { 0 };
             counted.unadded += if after { 0 } else { count };
             counted.undeleted += if held && after { count } else { 0 };
         }
@@ -250,13 +261,19 @@ impl Evidence {
             }
         }
         if joint.whole {
-            self.effects(states, joint, found);
+            self.effects(trace, states, joint, found);
             self.strays += strays(before, after, &found.list);
         }
     }
 
     /// What an example says about effects, one fact after the other.
-    fn effects(&mut self, [before, after]: [&State; 2], joint: &Joint, found: &mut Found) {
+    fn effects(
+        &mut self,
+        trace: &Trace,
+        [before, after]: [&State; 2],
+        joint: &Joint,
+        found: &mut Found,
+    ) {
         found.list.sort_unstable();
         for group in found.list.chunk_by(|one, other| one.0 == other.0) {
             let fact = group[0].0;
@@ -281,7 +298,7 @@ impl Evidence {
                 }
             }
             if held != holds {
-                self.note_company(group, joint);
+                self.note_company(group, joint, &trace.facts[fact.index()]);
             }
         }
     }
@@ -309,23 +326,29 @@ impl Evidence {
     }
 
     /// Notes with whom each literal of a change was.
-    fn note_company(&mut self, group: &[(FactId, u32, LiteralId)], joint: &Joint) {
+    fn note_company(&mut self, group: &[(FactId, u32, LiteralId)], joint: &Joint, fact: &Fact) {
         for (_, slot, literal) in group {
-            let mut alone = true;
-            let others = group.iter().filter(|(_, other, _)| other != slot);
-            let mut before = None;
-            for (_, other, _) in others {
-                alone = false;
-                if before.replace(other) == Some(other) {
+            let Some(part) = &joint.parts[*slot as usize] else { continue };
+            let (mut alone, mut apart) = (true, true);
+            for (other, companion) in joint.parts.iter().enumerate() {
+                let Some(companion) = companion.as_ref().filter(|_| other as u32 != *slot) else {
                     continue;
+                };
+                let about = |object| companion.arguments.contains(object);
+                if group.iter().any(|one| one.1 == other as u32) {
+                    alone = false;
+                    let ties = self.company.entry(*literal).or_default();
+                    *ties.entry(tie(part, companion)).or_default() += 1;
                 }
-                let parts = [*slot, *other].map(|slot| joint.parts[slot as usize].as_ref());
-                if let [Some(part), Some(other)] = parts {
-                    let tie = tie(part, other);
-                    *self.company.entry(*literal).or_default().entry(tie).or_default() += 1;
+                if fact.arguments.iter().any(about) {
+                    apart = false;
+                    let ties = self.contact.entry(*literal).or_default();
+                    *ties.entry(tie(part, companion)).or_default() += 1;
                 }
             }
-            self.count(*literal).alone += u32::from(alone);
+            let count = self.count(*literal);
+            count.alone += u32::from(alone);
+            count.apart += u32::from(apart);
         }
     }
 

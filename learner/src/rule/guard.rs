@@ -16,6 +16,10 @@ pub(super) struct Guard {
     pub(super) distinct: Vec<(Term, Term)>,
     /// Which atoms must not hold, since it is not clear whether they are deleted.
     pub(super) absent: Vec<usize>,
+    /// Which atoms are added: of all that are the same fact under the guard one that stands for them.
+    pub(super) adds: Vec<usize>,
+    /// Which are deleted, in the same way.
+    pub(super) deletes: Vec<usize>,
 }
 
 /// A possible effect that stays unclear.
@@ -48,6 +52,7 @@ impl Guarding<'_> {
             let harm = classes.iter().find_map(|class| self.harm(class, &guard));
             let Some(unclear) = harm else {
                 self.keep_apart(&classes, &mut guard);
+                self.settle(&classes, &mut guard);
                 return Ok(guard);
             };
             if self.unite(unclear, &mut guard) {
@@ -79,6 +84,20 @@ impl Guarding<'_> {
         classes.into_iter().map(|(_, class)| class).collect()
     }
 
+    /// Notes the effects that come because all that may have them is the same fact.
+    fn settle(&self, classes: &[Vec<usize>], guard: &mut Guard) {
+        for class in classes.iter().filter(|class| class.len() > 1) {
+            if class.iter().any(|at| self.adds(*at) == Status::Yes) {
+                continue;
+            }
+            if self.whole_clause(class, Claim::Adds) {
+                guard.adds.push(class[0]);
+            } else if self.whole_clause(class, Claim::Deletes) {
+                guard.deletes.push(class[0]);
+            }
+        }
+    }
+
     fn id(&self, at: usize) -> LiteralId {
         LiteralId(self.record.first + at as u32)
     }
@@ -93,13 +112,13 @@ impl Guarding<'_> {
         if self.shared[at] && settled == Status::Open { Status::Yes } else { settled }
     }
 
-    /// Whether some change may be its doing, or another's.
+    /// Whether something was deleted, and it is not clear whether by this or by another.
     fn disputed(&self, at: usize) -> bool {
         let literal = self.id(at);
         self.settled
             .open
             .iter()
-            .any(|clause| clause.claim != Claim::Adds && clause.literals.contains(&literal))
+            .any(|clause| clause.claim == Claim::Deletes && clause.literals.contains(&literal))
     }
 
     /// Whether it may be deleted where it holds. What an action does not demand, and what nothing speaks for, it is taken not to delete.

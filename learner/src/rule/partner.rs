@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use lang::model::{ActionId, Term};
 
-use super::Partner;
 use super::evidence::{Evidence, LiteralId, Record};
 use super::settle::{Settled, Status};
+use super::{Company, Partner};
 
 /// The partners of an action, and for each of its atoms whether it is an effect together with them.
 ///
@@ -16,19 +16,24 @@ pub(super) fn partners(
     evidence: &Evidence,
     settled: &Settled<'_>,
     record: &Record,
+    company: Company,
 ) -> (Vec<Partner>, Vec<bool>) {
     let mut partners: Vec<Partner> = Vec::new();
     let mut shared = vec![false; record.atoms.len()];
     for at in 0..record.atoms.len() {
         let literal = LiteralId(record.first + at as u32);
-        let Some(ties) = evidence.company.get(&literal) else { continue };
+        // Where no other part can have had the effect, it is enough that another was about the same things.
+        let near = company == Company::Together && record.counts[at].apart == 0;
+        let ties = evidence.company.get(&literal).filter(|_| record.counts[at].alone == 0);
+        let ties = ties.or_else(|| evidence.contact.get(&literal).filter(|_| near));
+        let Some(ties) = ties else { continue };
         let is_effect = |list: &[Status]| match list[literal.index()] {
             Status::Yes => true,
             Status::Open => in_open_clause(settled, literal),
             Status::No => false,
         };
         let effect = is_effect(&settled.adds) || is_effect(&settled.deletes);
-        if record.counts[at].alone > 0 || !effect {
+        if !effect {
             continue;
         }
         let mut others: BTreeMap<ActionId, (u32, Vec<Option<Term>>)> = BTreeMap::new();

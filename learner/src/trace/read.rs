@@ -450,6 +450,7 @@ impl<'t, 'd> Reader<'t, 'd> {
         if self.reading.agents.is_empty() {
             self.trace.agents = actors(&self.trace).unwrap_or_default();
         }
+        self.faults.sort_by_key(|fault| (fault.line, fault.column));
         (self.trace, self.faults)
     }
 }

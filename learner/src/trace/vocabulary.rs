@@ -7,6 +7,8 @@ use lang::model::{
 };
 use lang::source::Span;
 
+use super::Trace;
+
 /// A name that stands in no text.
 pub fn name(text: impl Into<String>) -> Name {
     Name { text: text.into(), span: Span::default() }
@@ -125,4 +127,28 @@ pub fn variables(domain: &Domain, types: &[Vec<TypeId>]) -> Vec<Variable> {
     }
     let pairs = names.into_iter().zip(types);
     pairs.map(|(text, types)| Variable { name: name(text), types: types.clone() }).collect()
+}
+
+/// Makes the first parameter of an action its agent where in all traces it is the one in whose slot the action stands.
+///
+/// Actions that no trace with agents has, and those without parameters, stay as they are.
+pub fn declare_agents(domain: &mut Domain, traces: &[Trace]) {
+    let mut acts: Vec<Option<bool>> = vec![None; domain.actions.len()];
+    for trace in traces {
+        for joint in &trace.steps {
+            for (agent, part) in trace.agents.iter().zip(&joint.parts) {
+                let Some(part) = part else { continue };
+                let own = part.arguments.first() == Some(agent);
+                let acts = &mut acts[part.action.index()];
+                *acts = Some(own && acts.unwrap_or(true));
+            }
+        }
+    }
+    for (action, acts) in domain.actions.iter_mut().zip(&acts) {
+        action.agent |= *acts == Some(true);
+    }
+    for signature in &mut domain.signatures {
+        let action = signature.action.map(|id| &domain.actions[id.index()]);
+        signature.agent = action.map_or(signature.agent, |action| action.agent);
+    }
 }
