@@ -119,6 +119,16 @@ pub(crate) fn in_turn(
     stage: &Stage,
     chance: &mut Chance,
 ) -> Vec<Vec<Skill>> {
+    in_turn_from(turns, stage, chance, true)
+}
+
+/// The same; whether the last hand goes back to rest as well is given.
+pub(crate) fn in_turn_from(
+    turns: Vec<(HandId, Vec<Skill>)>,
+    stage: &Stage,
+    chance: &mut Chance,
+    back: bool,
+) -> Vec<Vec<Skill>> {
     let mut hands: Vec<Vec<Skill>> = stage
         .hands()
         .map(|_| vec![Skill::Pause(chance.within((0.4, 0.9)))])
@@ -135,7 +145,7 @@ pub(crate) fn in_turn(
         hands[hand.index()].extend(skills);
         before = Some((hand, hands[hand.index()].len()));
     }
-    if let Some((hand, _)) = before {
+    if back && let Some((hand, _)) = before {
         hands[hand.index()].push(home(hand));
     }
     hands

@@ -1,9 +1,9 @@
 //! A physical world goes in; what holds in it comes out: from contacts, grips and the values of joints, without noise and without any learner's geometry.
 
 use super::stage::Stage;
-use super::thing::{Form, Mount};
+use super::thing::Mount;
 use learner::log::{Fact, HandId, Header, ObjectId};
-use nalgebra::Vector3;
+use nalgebra::{Translation3, Vector3};
 
 /// Below this share of its way something is closed.
 const CLOSED: f64 = 0.1;
@@ -143,36 +143,14 @@ fn blocks(stage: &Stage, obstacle: ObjectId, drawer: ObjectId) -> bool {
     // The space before the front, as far as the drawer still goes; what lies in the drawer moves with it.
     let half = thing.object.size / 2.0;
     let reach = half.dot(&joint.axis.abs()) + rest / 2.0;
-    let middle = stage.pose(drawer) * nalgebra::Translation3::from(joint.axis * reach);
+    let middle = stage.pose(drawer) * Translation3::from(joint.axis * reach);
     let mut space = half;
     for axis in 0..3 {
         if joint.axis[axis].abs() > 0.5 {
             space[axis] = rest / 2.0;
         }
     }
-    stage.thing(obstacle).parts.iter().any(|part| {
-        // Corners and middles of a part's faces are enough for parts that are not smaller than a drawer's front is thick.
-        let Form::Box(size) = part.form else { return false };
-        let place = middle.inverse() * stage.pose(obstacle) * part.place;
-        samples(size).any(|point| {
-            let inside = place * nalgebra::Point3::from(point);
-            (0..3).all(|axis| inside[axis].abs() < space[axis])
-        })
-    })
-}
-
-/// A grid of points in a box around its middle.
-fn samples(size: Vector3<f64>) -> impl Iterator<Item = Vector3<f64>> {
-    const GRID: i32 = 6;
-    (-GRID..=GRID).flat_map(move |x| {
-        (-GRID..=GRID).flat_map(move |y| {
-            (-GRID..=GRID).map(move |z| {
-                Vector3::new(f64::from(x), f64::from(y), f64::from(z))
-                    .component_mul(&size)
-                    .scale(0.5 / f64::from(GRID))
-            })
-        })
-    })
+    stage.overlaps(obstacle, &middle, space)
 }
 
 /// Whether a point is over a place, no higher than half a metre.

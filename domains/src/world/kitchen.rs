@@ -3,7 +3,7 @@
 //! The names are those of `domains/closed-drawer` and `domains/blocked-drawer`, so what is learned here extends those domains.
 
 use super::chance::Chance;
-use super::cubes::{in_turn, stray};
+use super::cubes::{in_turn_from, stray};
 use super::person::{Person, Side};
 use super::scenario::{Goal, Layout, Script, Task, fact, kind, two_hands};
 use super::skill::Skill;
@@ -32,10 +32,11 @@ pub(crate) fn layout(chance: &mut Chance, blocked: bool) -> Layout {
     let mut near = |place: Vector3<f64>, x: f64, y: f64| {
         place + Vector3::new(chance.within((-x, x)), chance.within((-y, y)), 0.0)
     };
-    let tables = [Vector3::new(-1.1, -0.1, top - 0.02), Vector3::new(1.1, -0.1, top - 0.02)];
+    // The tables stand across the room, so that carrying a plate is a walk.
+    let tables = [Vector3::new(-0.8, -1.9, top - 0.02), Vector3::new(0.9, -1.9, top - 0.02)];
     let drawers = [-0.35, 0.35].map(|x| Vector3::new(x, FRONT + size.y / 2.0, 0.62));
     let plates = tables.map(|place| near(place + Vector3::z() * 0.03, 0.2, 0.2));
-    let away = near(Vector3::new(0.9, -1.1, 0.431), 0.1, 0.1);
+    let away = near(Vector3::new(1.3, -0.7, 0.431), 0.1, 0.1);
     let before = near(Vector3::new(drawers[0].x, FRONT - 0.05 - 0.21, 0.431), 0.05, 0.01);
     let mut things: Vec<Thing> = vec![
         thing::table("table1", table, at(tables[0].x, tables[0].y, tables[0].z)),
@@ -122,5 +123,6 @@ pub(crate) fn script(
         let rest = turns[0].1.split_off(split);
         turns.push((HandId(1 - hand.0), rest));
     }
-    Script { hands: in_turn(turns, stage, chance), goal }
+    // The recording ends with the work, where the person then is.
+    Script { hands: in_turn_from(turns, stage, chance, false), goal }
 }

@@ -8,6 +8,8 @@ use super::space::{self, to_isometry, to_vector};
 use super::thing::{Form, Mount, Part, Thing};
 use learner::log::{HandId, ObjectId};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use rapier3d::parry::query::intersection_test;
+use rapier3d::parry::shape::Cuboid;
 use rapier3d::prelude::{
     ColliderBuilder, GenericJointBuilder, ImpulseJointHandle, JointAxesMask, JointAxis,
     PhysicsWorld, PrismaticJointBuilder, RigidBodyBuilder, RigidBodyHandle, RigidBodyType, Vector,
@@ -283,6 +285,21 @@ impl Stage {
                 ))
             })
             .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether a part of a thing is in a box of half this extent.
+    pub(crate) fn overlaps(
+        &self,
+        object: ObjectId,
+        place: &Isometry3<f64>,
+        half: Vector3<f64>,
+    ) -> bool {
+        let (place, space) = (space::pose(place), Cuboid::new(space::vector(half)));
+        self.world.bodies[self.bodies[object.index()]].colliders().iter().any(|collider| {
+            let collider = &self.world.colliders[*collider];
+            intersection_test(&place, &space, collider.position(), collider.shape())
+                .is_ok_and(|found| found.intersecting)
+        })
     }
 
     /// What touches what: pairs of things with the direction from the first to the second in which they press.
