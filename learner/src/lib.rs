@@ -4,7 +4,7 @@
 //!
 //! - [`log`]: frames of hands and objects, as they were tracked;
 //! - [`truth`]: what really happened in a frame, where somebody knows it;
-//! - [`observe`]: what each hand does and which facts hold, frame by frame;
+//! - [`observe`](mod@observe): what each hand does and which facts hold, frame by frame;
 //! - [`segment`]: the activities in which each hand spends its time;
 //! - [`trace`]: symbolic states and the actions between them, and their text;
 //! - [`operators`]: from what was observed to a trace with named actions;
