@@ -11,6 +11,7 @@
 //! ```
 
 pub mod kitchen;
+pub mod world;
 
 use std::path::PathBuf;
 
