@@ -2,6 +2,17 @@
 //!
 //! Lengths are metres, angles radians, times seconds; the world frame is right-handed with z up.
 //! Whatever units a file has, what is read from it has these.
+//!
+//! - [`json`] reads and writes JSON Lines, the format of `docs/logs.md`.
+//! - [`BadLine`] is what is wrong with a line.
+
+mod fault;
+mod line;
+mod header;
+mod sample;
+pub mod json;
+
+pub use fault::{BadLine, Fault};
 
 use nalgebra::{Isometry3, Vector3};
 

@@ -127,6 +127,8 @@ struct Moving {
     raw: bool,
     moves: bool,
     since: Option<(u64, f64)>,
+    /// Since which frame it moves or rests, and since which it did the other before.
+    turned: (u64, u64),
     /// When the hand was last seen.
     seen: Option<f64>,
 }
@@ -290,7 +292,7 @@ impl<'a> Observer<'a> {
             let moving = &mut self.moving[hand];
             let turned = moving.step((number, time), speed, &self.config);
             rewrites.extend(turned.map(|frame| (hand, Rewrite::Moves(frame, moving.moves))));
-            let moves = moving.moves;
+            let (moves, turned_at) = (moving.moves, moving.turned);
             let place = pose.map(|pose| pose.translation.vector);
             places.push(place);
             let bare = self.distances(place, self.config.measure);
@@ -310,7 +312,15 @@ impl<'a> Observer<'a> {
             if let Some(pose) = pose {
                 let shapes: Vec<Option<Shape>> =
                     self.bodies.iter().map(|body| body.shape.filter(|_| !body.lost)).collect();
-                let seen = Seen { frame: number, pose, grip, moves, near: &near, shapes: &shapes };
+                let seen = Seen {
+                    frame: number,
+                    pose,
+                    grip,
+                    moves,
+                    turned: turned_at,
+                    near: &near,
+                    shapes: &shapes,
+                };
                 let changes = self.grasps[hand].step(&seen, &self.config);
                 rewrites.extend(changes.into_iter().map(|since| (hand, Rewrite::Holds(since))));
             }
@@ -574,7 +584,7 @@ impl<'a> Observer<'a> {
                 {
                     far - held.radius - other.radius
                 }
-                Measure::Surface => held.separation(&other).max(0.0),
+                Measure::Surface => held.separation(&other),
             })
         };
         self.bodies.iter().map(|body| one(body).map_or(f32::NAN, |far| far as f32)).collect()
@@ -611,6 +621,7 @@ impl Moving {
         (first || now.1 - since.1 >= config.minimum).then(|| {
             self.moves = self.raw;
             self.since = None;
+            self.turned = (since.0, self.turned.0);
             since.0
         })
     }

@@ -19,6 +19,8 @@ pub struct Config {
     pub measure: Measure,
     /// A hand approaches something when the distance shrinks at least so fast.
     pub approach: f64,
+    /// A hand that stops near what it approached still acts on it, until it holds something else or leaves; the published program has it act on nothing.
+    pub keep: bool,
     /// What is held acts on no object of its own type, as in the published program; stacking cubes needs it off.
     pub same_class: bool,
     /// Types of objects on which hands never act, such as tables; those that are fixed and have no joints count as such anyway.
@@ -125,6 +127,22 @@ pub enum BadConfig {
 }
 
 impl Config {
+    /// The thresholds and rules of the published program, which decides on line and measures to the middles of objects.
+    pub fn published() -> Self {
+        let alike = |value| Band { low: value, high: value };
+        Self {
+            speed: alike(0.04),
+            reach: alike(0.15),
+            measure: Measure::Centre,
+            approach: 0.0,
+            keep: false,
+            same_class: true,
+            minimum: 0.05,
+            ahead: 0.0,
+            ..Self::default()
+        }
+    }
+
     /// Says what is wrong with the thresholds.
     pub fn check(&self) -> Result<(), BadConfig> {
         let bands = [
@@ -174,10 +192,11 @@ impl Config {
 impl Default for Config {
     fn default() -> Self {
         Self {
-            speed: Band { low: 0.035, high: 0.045 },
+            speed: Band { low: 0.04, high: 0.05 },
             reach: Band { low: 0.15, high: 0.16 },
             measure: Measure::Surface,
             approach: 0.02,
+            keep: true,
             same_class: false,
             never_acted_on: Vec::new(),
             grip: Band { low: 0.3, high: 0.6 },
@@ -188,7 +207,7 @@ impl Default for Config {
             held_things_rest: false,
             minimum: 0.05,
             bridge: 0.5,
-            window: 0.12,
+            window: 0.17,
             smooth: 0.06,
             ahead: 1.0,
             seen: 0.3,

@@ -16,6 +16,8 @@ pub(super) struct Seen<'a> {
     pub grip: Option<f64>,
     /// Whether it moves.
     pub moves: bool,
+    /// The frame since which it moves or rests, and the one since which it did the other before.
+    pub turned: (u64, u64),
     /// The objects that can be held, with their distances to the hand in metres.
     pub near: &'a [(ObjectId, f64)],
     /// All objects where they are.
@@ -43,12 +45,16 @@ struct Bond {
     frame: u64,
     /// The first frame since in which the hand rested.
     rest: Option<u64>,
+    /// The frame in which it last began to move.
+    leave: u64,
 }
 
 /// Follows one hand.
 #[derive(Debug, Default)]
 pub(super) struct Grasp {
     held: Option<Bond>,
+    /// The frame in which it was taken.
+    since: u64,
     /// The last frame in which what is held was where it should be in the hand.
     firm: u64,
     /// What could be held if it moved with the hand.
@@ -56,12 +62,17 @@ pub(super) struct Grasp {
     /// The objects among which the closing hand had to choose, with the place of the hand then.
     doubt: Option<(Vector3<f64>, Vec<Bond>)>,
     closed: bool,
+    /// Since when the grip is neither open nor closed; it began to open or close then.
+    between: Option<u64>,
     /// The frame in which the hand closed, while it is closed around nothing.
     closing: Option<u64>,
 }
 
 /// How many frames after it closed a hand may still find something between its fingers: tracking and gripper need not agree on the moment.
 const LATE: u64 = 8;
+
+/// So many frames after a hand left something behind that may show.
+const STRAY: u64 = 30;
 
 impl Grasp {
     /// What the hand holds as far as is known now.
@@ -95,7 +106,13 @@ impl Grasp {
             let Some(new) = seen.bond(object) else { continue };
             match self.bonds.iter_mut().find(|bond| bond.object == object) {
                 Some(bond) if (bond.offset - new.offset).norm() > config.rigid => *bond = new,
-                Some(bond) => bond.rest = bond.rest.or((!seen.moves).then_some(seen.frame)),
+                Some(bond) => {
+                    if seen.moves {
+                        bond.leave = seen.turned.0;
+                    } else {
+                        bond.rest = bond.rest.or(Some(seen.turned.0.max(bond.frame)));
+                    }
+                }
                 None if distance <= config.hold.low => self.bonds.push(new),
                 None => {}
             }
@@ -107,17 +124,20 @@ impl Grasp {
         let closed = config.grip.rising(self.closed, grip);
         let closes = closed && !self.closed;
         self.closed = closed;
+        let began = self.between.unwrap_or(seen.frame);
+        let between = grip > config.grip.low && grip < config.grip.high;
+        self.between = between.then_some(began);
         if grip <= config.grip.low {
             self.closing = None;
             if self.held.take().is_some() {
                 self.doubt = None;
                 self.bonds.clear();
-                changes.push(Since { frame: seen.frame, object: None });
+                changes.push(Since { frame: self.quick(began, seen.frame), object: None });
             }
             return;
         }
         if closes && self.held.is_none() {
-            self.closing = Some(seen.frame);
+            self.closing = Some(self.quick(began, seen.frame));
         }
         if let Some(frame) = self.closing {
             if seen.frame > frame + LATE || self.held.is_some() {
@@ -127,6 +147,11 @@ impl Grasp {
             }
         }
         self.decide(seen, config, changes);
+    }
+
+    /// The frame in which a grip began to change, if it changed so quickly that it was one movement.
+    fn quick(&self, began: u64, now: u64) -> u64 {
+        if now - began <= LATE { began } else { now }
     }
 
     /// Takes the nearest object; of those that are hardly further away the smallest, since a hand in a drawer is also near the drawer.
@@ -151,13 +176,13 @@ impl Grasp {
         else {
             return;
         };
-        self.closing = None;
+        let frame = self.closing.take().unwrap_or(seen.frame);
         self.held = seen.bond(object);
         self.firm = seen.frame;
         let others: Vec<Bond> =
             within.iter().filter_map(|&(object, _)| seen.bond(object)).collect();
         self.doubt = (others.len() > 1).then(|| (seen.pose.translation.vector, others));
-        changes.push(Since { frame: seen.frame, object: Some(object) });
+        changes.push(Since { frame, object: Some(object) });
     }
 
     /// Once the hand has gone some way, what came along is what was taken.
@@ -208,11 +233,19 @@ impl Grasp {
             self.held = None;
             self.doubt = None;
             self.bonds.retain(|bond| bond.object != object);
-            changes.push(Since { frame: self.firm + 1, object: None });
+            let (leave, rest) = seen.turned;
+            let still = seen.moves && (rest..leave + STRAY).contains(&self.firm);
+            let frame = if still && !measured {
+                u64::midpoint(rest.max(self.since), leave)
+            } else {
+                self.firm + 1
+            };
+            changes.push(Since { frame, object: None });
         }
     }
 
-    /// What moves with a hand and keeps its place in it is held, since the hand rested at it.
+    /// What moves with a hand and keeps its place in it is held.
+    /// It was taken while the hand rested at it; nothing shows when, and the middle of that time is the best guess.
     fn by_motion(&mut self, seen: &Seen<'_>, config: &Config, changes: &mut Vec<Since>) {
         let carried = |bond: &&Bond| {
             seen.shapes[bond.object.index()]
@@ -234,8 +267,10 @@ impl Grasp {
         if let Some(bond) = best {
             self.held = Some(bond);
             self.firm = seen.frame;
-            changes
-                .push(Since { frame: bond.rest.unwrap_or(bond.frame), object: Some(bond.object) });
+            let frame =
+                bond.rest.map_or(bond.frame, |rest| u64::midpoint(rest, bond.leave.max(rest)));
+            self.since = frame;
+            changes.push(Since { frame, object: Some(bond.object) });
         }
     }
 }
@@ -246,6 +281,6 @@ impl Seen<'_> {
         let place = self.shapes[object.index()]?.middle();
         let offset = self.pose.rotation.inverse() * (place - self.pose.translation.vector);
         let rest = (!self.moves).then_some(self.frame);
-        Some(Bond { object, offset, place, frame: self.frame, rest })
+        Some(Bond { object, offset, place, frame: self.frame, rest, leave: self.turned.0 })
     }
 }

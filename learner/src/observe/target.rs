@@ -8,9 +8,10 @@ use crate::log::{HandId, Header, ObjectId};
 
 /// What `hand` acts on in the moment at `now`, where `before` is what it acted on the moment before.
 ///
-/// A hand acts on something only while it moves. What it approaches is known better from what it comes to than from where it heads:
-/// if it takes something within the time that observation looks ahead, it was on its way to that; if it passes by and goes on, it was not.
-/// Where the moments do not reach so far, or [`Config::ahead`] is 0, the published rule is left: the nearest object in reach that comes nearer.
+/// What a hand approaches is known better from what it comes to than from where it heads:
+/// if it takes something within the time that observation looks ahead, it was on its way to that; if it passes by and goes on, it was not;
+/// and what it holds acts on what it comes to touch.
+/// Where [`Config::ahead`] is 0, the published rule is left: the nearest object in reach that comes nearer.
 pub(super) fn acted_on(
     moments: &VecDeque<Moment>,
     now: usize,
@@ -21,46 +22,61 @@ pub(super) fn acted_on(
 ) -> Option<ObjectId> {
     let at = |index: usize| &moments[index].hands[hand.index()];
     let here = at(now);
-    if !here.moves || here.place.is_none() {
-        return None;
-    }
     let held = here.in_hand;
-    let end = (now + 1..moments.len())
-        .take_while(|&index| moments[index].time - moments[now].time <= config.ahead)
-        .find(|&index| at(index).in_hand != held || at(index).place.is_none());
+    let changed = now > 0 && at(now - 1).in_hand != held;
+    let kept = before.filter(|object| {
+        config.keep
+            && !changed
+            && Some(*object) != held
+            && here.bare(object.index()) <= config.reach.high
+    });
+    if here.place.is_none() || !here.moves {
+        return kept;
+    }
     let last = (now..moments.len())
         .take_while(|&index| moments[index].time - moments[now].time <= config.ahead)
         .last()
         .unwrap_or(now);
+    let end = (now + 1..=last).find(|&index| at(index).in_hand != held);
     let taken = end.filter(|_| held.is_none()).and_then(|index| at(index).in_hand);
     let until = end.unwrap_or(last);
     let mut best: Option<(f64, f64, ObjectId)> = None;
-    for (number, object) in header.objects.iter().enumerate() {
+    for number in 0..header.objects.len() {
         let id = ObjectId(number as u32);
-        if !may_be_acted_on(header, id, held, config) || taken.is_some_and(|taken| taken != id) {
+        let distance = here.bare(number);
+        let near = !distance.is_nan() && config.reach.falling(before == Some(id), distance);
+        if !near
+            || taken.is_some_and(|taken| taken != id)
+            || !may_be_acted_on(header, id, held, config)
+        {
             continue;
         }
-        let distance = here.distance(held, number);
-        if distance.is_nan() || !config.reach.falling(before == Some(id), distance) {
+        if !approaches(moments, now, hand, number, before == Some(id), config) {
             continue;
         }
-        debug_assert!(!object.region);
-        let (nearest, place) = (now..=until)
-            .map(|index| (at(index).distance(held, number), index))
-            .filter(|(distance, _)| !distance.is_nan())
-            .fold((distance, now), |best, next| if next.0 < best.0 { next } else { best });
-        let passes =
-            nearest > config.touch.high && place < until && taken.is_none() && config.ahead > 0.0;
-        if passes || !approaches(moments, now, hand, held, number, before == Some(id), config) {
-            continue;
+        let mut score = distance;
+        if config.ahead > 0.0 && taken.is_none() {
+            let (nearest, place) = (now..=until)
+                .map(|index| (at(index).distance(held, number), index))
+                .filter(|(distance, _)| !distance.is_nan())
+                .fold((f64::INFINITY, now), |best, next| if next.0 < best.0 { next } else { best });
+            let touch = if held.is_some() { config.touch.high } else { config.hold.low };
+            let under_way = end.is_none() && place + 1 >= until && at(until).moves;
+            let stops = held.is_none() && (place..=until).take(STOP).any(|index| !at(index).moves);
+            if nearest > touch && !under_way && !stops {
+                continue;
+            }
+            score = nearest;
         }
-        let score = if config.ahead > 0.0 { nearest } else { distance };
         if best.is_none_or(|(other, far, _)| (score, distance) < (other, far)) {
             best = Some((score, distance, id));
         }
     }
     best.map(|(_, _, id)| id)
 }
+
+/// Within so many frames after it came nearest to something, a hand that meant it stops.
+const STOP: usize = 15;
 
 /// Whether a hand that holds `held` can act on an object at all.
 fn may_be_acted_on(header: &Header, id: ObjectId, held: Option<ObjectId>, config: &Config) -> bool {
@@ -71,18 +87,17 @@ fn may_be_acted_on(header: &Header, id: ObjectId, held: Option<ObjectId>, config
     !furniture && held != Some(id) && !alike && !config.never_acted_on.contains(&object.kind)
 }
 
-/// Whether the distance to an object shrinks, or the hand works on it: it stays in touch and does not leave.
+/// Whether the distance of a hand to an object shrinks, or the hand works on it: it stays in touch and does not leave.
 fn approaches(
     moments: &VecDeque<Moment>,
     now: usize,
     hand: HandId,
-    held: Option<ObjectId>,
     object: usize,
     before: bool,
     config: &Config,
 ) -> bool {
     let reading = |index: usize| {
-        let distance = moments[index].hands[hand.index()].distance(held, object);
+        let distance = moments[index].hands[hand.index()].bare(object);
         (!distance.is_nan()).then_some((moments[index].time, distance))
     };
     let near = |index: &usize| (moments[*index].time - moments[now].time).abs() <= config.smooth;
@@ -95,10 +110,15 @@ fn approaches(
     }
     let rate = (to.1 - from.1) / (to.0 - from.0);
     let slack = if before { 0.5 } else { 1.0 };
-    rate <= -config.approach * slack || here.1 <= config.touch.low && rate < config.approach * slack
+    rate < -config.approach * slack || here.1 <= 0.0 && rate < config.approach * slack
 }
 
 impl HandMoment {
+    /// The distance of the hand itself to an object; not a number where it is unknown.
+    pub(super) fn bare(&self, object: usize) -> f64 {
+        self.bare.get(object).map_or(f64::NAN, |&distance| f64::from(distance))
+    }
+
     /// The distance of the hand, with what it holds, to an object; not a number where it is unknown.
     pub(super) fn distance(&self, held: Option<ObjectId>, object: usize) -> f64 {
         let distances = match held {
