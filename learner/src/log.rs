@@ -3,7 +3,7 @@
 //! Lengths are metres, angles radians, times seconds; the world frame is right-handed with z up.
 //! Whatever units a file has, what is read from it has these.
 //!
-//! - [`json`] reads and writes JSON Lines, the format of `docs/logs.md`.
+//! - [`json`] reads and writes JSON Lines, the format of `docs/logs.md`; [`csv`] the same as a table.
 //! - [`BadLine`] is what is wrong with a line.
 
 mod fault;
@@ -11,8 +11,11 @@ mod line;
 mod header;
 mod sample;
 pub mod json;
+pub mod csv;
 
 pub use fault::{BadLine, Fault};
+pub(crate) use header::syntax;
+pub(crate) use line::{LONGEST, Lines};
 
 use nalgebra::{Isometry3, Vector3};
 

@@ -310,8 +310,6 @@ impl<'a> Observer<'a> {
                 })
                 .collect();
             if let Some(pose) = pose {
-                let shapes: Vec<Option<Shape>> =
-                    self.bodies.iter().map(|body| body.shape.filter(|_| !body.lost)).collect();
                 let seen = Seen {
                     frame: number,
                     pose,
@@ -319,7 +317,7 @@ impl<'a> Observer<'a> {
                     moves,
                     turned: turned_at,
                     near: &near,
-                    shapes: &shapes,
+                    bodies: &self.bodies,
                 };
                 let changes = self.grasps[hand].step(&seen, &self.config);
                 rewrites.extend(changes.into_iter().map(|since| (hand, Rewrite::Holds(since))));

@@ -2,10 +2,14 @@
 //!
 //! It lies beside a log and is what segmentation is judged by, and what a decision tree is learned from; nothing that learns operators reads it.
 
+mod json;
+
+pub use json::{Reader, Writer};
+
 use crate::log::{Fact, HandState};
 
 /// What a hand does, as table 3.1 of the thesis names it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Deserialize)]
 pub enum Activity {
     /// Nothing, or on its way without an aim.
     Idle,

@@ -22,7 +22,7 @@ pub enum Fault {
     #[error("cannot be read: {0}")]
     Unreadable(String),
     /// It is longer than any sensible line.
-    #[error("is longer than {} MiB", super::line::LONGEST >> 20)]
+    #[error("is longer than {} MiB", super::LONGEST >> 20)]
     Long,
     /// There is no line at all.
     #[error("the log is empty; its first line must be a header such as {}", super::header::EXAMPLE)]
@@ -109,12 +109,12 @@ fn did_you_mean(name: Option<&String>) -> String {
 
 impl BadLine {
     /// A fault of a whole line.
-    pub(super) fn new(line: u64, fault: Fault) -> Self {
+    pub(crate) fn new(line: u64, fault: Fault) -> Self {
         Self { line, column: None, field: None, fault }
     }
 
     /// A fault of a field of a line.
-    pub(super) fn of_field(line: u64, field: impl Into<String>, fault: Fault) -> Self {
+    pub(crate) fn of_field(line: u64, field: impl Into<String>, fault: Fault) -> Self {
         Self { line, column: None, field: Some(field.into()), fault }
     }
 

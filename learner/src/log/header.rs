@@ -193,7 +193,7 @@ pub(super) fn read(text: &[u8], line: u64) -> Result<(Header, Scale), BadLine> {
 }
 
 /// A fault of JSON as serde tells it, without the place that it adds in its own words.
-pub(super) fn syntax(line: u64, error: &serde_json::Error) -> BadLine {
+pub(crate) fn syntax(line: u64, error: &serde_json::Error) -> BadLine {
     let text = error.to_string();
     let message = text.rfind(" at line ").map_or(text.as_str(), |end| &text[..end]);
     let column = (error.column() > 0).then_some(error.column() as u64);
@@ -402,13 +402,13 @@ impl Header {
     }
 
     /// What is wrong with a name that should be a hand's.
-    pub(super) fn no_hand(&self, name: &str) -> Fault {
+    pub(crate) fn no_hand(&self, name: &str) -> Fault {
         let near = nearest(name, self.hands.iter().map(|hand| hand.name.as_str()));
         Fault::UnknownHand { name: name.to_string(), near }
     }
 
     /// What is wrong with a name that should be an object's.
-    pub(super) fn no_object(&self, name: &str) -> Fault {
+    pub(crate) fn no_object(&self, name: &str) -> Fault {
         let near = nearest(name, self.objects.iter().map(|object| object.name.as_str()));
         Fault::UnknownObject { name: name.to_string(), near }
     }

@@ -13,6 +13,7 @@ use super::line::Lines;
 use super::{Frame, Header};
 use frame::Index;
 pub use write::Writer;
+pub(crate) use write::{number, quoted, words, write_state};
 
 /// Reads a log of JSON Lines: an iterator over its frames.
 ///

@@ -5,11 +5,11 @@ use std::io::{BufRead, Read};
 use super::fault::{BadLine, Fault};
 
 /// The longest line in bytes; it bounds the memory that any input can claim.
-pub(super) const LONGEST: usize = 16 << 20;
+pub(crate) const LONGEST: usize = 16 << 20;
 
 /// Reads lines.
 #[derive(Debug)]
-pub(super) struct Lines<R> {
+pub(crate) struct Lines<R> {
     input: R,
     buffer: Vec<u8>,
     /// The number of the line in the buffer, from 1.

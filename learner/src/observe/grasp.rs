@@ -3,6 +3,7 @@
 use nalgebra::{Isometry3, Vector3};
 
 use super::config::Config;
+use super::relation::Body;
 use super::shape::Shape;
 use crate::log::ObjectId;
 
@@ -21,7 +22,7 @@ pub(super) struct Seen<'a> {
     /// The objects that can be held, with their distances to the hand in metres.
     pub near: &'a [(ObjectId, f64)],
     /// All objects where they are.
-    pub shapes: &'a [Option<Shape>],
+    pub bodies: &'a [Body],
 }
 
 /// From this frame on the hand holds this, or nothing.
@@ -132,12 +133,12 @@ impl Grasp {
             if self.held.take().is_some() {
                 self.doubt = None;
                 self.bonds.clear();
-                changes.push(Since { frame: self.quick(began, seen.frame), object: None });
+                changes.push(Since { frame: quick(began, seen.frame), object: None });
             }
             return;
         }
         if closes && self.held.is_none() {
-            self.closing = Some(self.quick(began, seen.frame));
+            self.closing = Some(quick(began, seen.frame));
         }
         if let Some(frame) = self.closing {
             if seen.frame > frame + LATE || self.held.is_some() {
@@ -147,11 +148,6 @@ impl Grasp {
             }
         }
         self.decide(seen, config, changes);
-    }
-
-    /// The frame in which a grip began to change, if it changed so quickly that it was one movement.
-    fn quick(&self, began: u64, now: u64) -> u64 {
-        if now - began <= LATE { began } else { now }
     }
 
     /// Takes the nearest object; of those that are hardly further away the smallest, since a hand in a drawer is also near the drawer.
@@ -166,9 +162,8 @@ impl Grasp {
         else {
             return;
         };
-        let radius = |object: ObjectId| {
-            seen.shapes[object.index()].map_or(f64::INFINITY, |shape| shape.radius)
-        };
+        let radius =
+            |object: ObjectId| seen.shape(object).map_or(f64::INFINITY, |shape| shape.radius);
         let Some(&(object, _)) = within
             .iter()
             .filter(|(_, distance)| *distance <= least + 0.01)
@@ -248,7 +243,7 @@ impl Grasp {
     /// It was taken while the hand rested at it; nothing shows when, and the middle of that time is the best guess.
     fn by_motion(&mut self, seen: &Seen<'_>, config: &Config, changes: &mut Vec<Since>) {
         let carried = |bond: &&Bond| {
-            seen.shapes[bond.object.index()]
+            seen.shape(bond.object)
                 .is_some_and(|shape| (shape.middle() - bond.place).norm() >= config.carried)
         };
         let distance = |bond: &Bond| {
@@ -275,10 +270,21 @@ impl Grasp {
     }
 }
 
+/// The frame in which a grip began to change, if it changed so quickly that it was one movement.
+fn quick(began: u64, now: u64) -> u64 {
+    if now - began <= LATE { began } else { now }
+}
+
 impl Seen<'_> {
+    /// Where an object is; none while it is lost.
+    fn shape(&self, object: ObjectId) -> Option<&Shape> {
+        let body = &self.bodies[object.index()];
+        body.shape.as_ref().filter(|_| !body.lost)
+    }
+
     /// The bond to an object that would begin now.
     fn bond(&self, object: ObjectId) -> Option<Bond> {
-        let place = self.shapes[object.index()]?.middle();
+        let place = self.shape(object)?.middle();
         let offset = self.pose.rotation.inverse() * (place - self.pose.translation.vector);
         let rest = (!self.moves).then_some(self.frame);
         Some(Bond { object, offset, place, frame: self.frame, rest, leave: self.turned.0 })

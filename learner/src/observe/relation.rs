@@ -52,6 +52,8 @@ pub(super) struct Geometry {
     touching: Vec<Cell>,
     blocks: Vec<Cell>,
     at: Vec<Cell>,
+    /// No relation of the pair holds or is about to; the second object counts most in the number of a pair.
+    quiet: Vec<bool>,
     open: Vec<Cell>,
     hand_at: Vec<Cell>,
     reachable: Vec<Cell>,
@@ -75,6 +77,7 @@ impl Geometry {
             touching: pairs(),
             blocks: pairs(),
             at: pairs(),
+            quiet: vec![false; count * count],
             open: vec![Cell::default(); count],
             hand_at: by_hand(),
             reachable: by_hand(),
@@ -103,35 +106,43 @@ impl Geometry {
             }
             let to = Thing::Object(ObjectId(second as u32));
             let way = self.way(second, bodies, header);
+            let middle = below.middle();
+            let range =
+                way.map_or(below.radius, |way| way.radius + (way.middle() - middle).norm()) + FAR;
             for first in 0..self.count {
-                let upper = &header.objects[first];
-                let body = bodies[first];
-                let (Some(above), false) =
-                    (body.shape, first == second || upper.region || upper.fixed || body.lost)
-                else {
+                let body = &bodies[first];
+                let (Some(above), false) = (&body.shape, first == second || body.lost) else {
                     continue;
                 };
+                let pair = second * self.count + first;
+                // Nearly all pairs are far apart and were so before: nothing can change.
+                let apart = (above.middle() - middle).norm_squared();
+                if self.quiet[pair] && apart > (range + above.radius).powi(2) {
+                    continue;
+                }
+                let upper = &header.objects[first];
+                if upper.region || upper.fixed {
+                    continue;
+                }
                 let from = Thing::Object(ObjectId(first as u32));
-                let pair = first * self.count + second;
                 let mut tell = |relation, change: Option<(u64, bool)>, holds| {
                     if let Some((frame, fresh)) = change {
                         flip(frame, Flip { relation, first: from, second: to, holds, fresh });
                     }
                 };
                 if lower.region {
-                    let holds = at(&below, &above, self.at[pair].holds, config);
+                    let holds = at(&below, above, self.at[pair].holds, config);
                     tell(Relation::At, judge(&mut self.at[pair], holds), holds);
                     continue;
                 }
-                let near =
-                    (above.middle() - below.middle()).norm() - above.radius - below.radius < FAR;
+                let near = apart < (above.radius + below.radius + FAR).powi(2);
                 let holds =
-                    near && lower.hollow && inside(&below, &above, self.inside[pair].holds, config);
+                    near && lower.hollow && inside(&below, above, self.inside[pair].holds, config);
                 tell(Relation::Inside, judge(&mut self.inside[pair], holds), holds);
                 let enclosed = holds || self.inside[pair].holds;
                 let holds = near
                     && !enclosed
-                    && on_top(&below, &above, lower.hollow, self.on_top[pair].holds, config);
+                    && on_top(&below, above, lower.hollow, self.on_top[pair].holds, config);
                 tell(Relation::OnTop, judge(&mut self.on_top[pair], holds), holds);
                 if touching && (first < second || lower.fixed) {
                     let holds = near
@@ -145,9 +156,13 @@ impl Geometry {
                     let free = enclosed || self.on_top[pair].holds || body.held && !before;
                     let holds = !free
                         && (above.middle() - way.middle()).norm() < above.radius + way.radius
-                        && config.obstacle.rising(before, -way.separation(&above));
+                        && config.obstacle.rising(before, -way.separation(above));
                     tell(Relation::Blocks, judge(&mut self.blocks[pair], holds), holds);
                 }
+                let calm = |cell: &Cell| !cell.holds && cell.since.is_none();
+                self.quiet[pair] = [&self.on_top, &self.inside, &self.touching, &self.blocks]
+                    .into_iter()
+                    .all(|cells| calm(&cells[pair]));
             }
             if !lower.joints.is_empty() && !bodies[second].open.is_nan() {
                 let fresh = !self.open[second].known;

@@ -85,7 +85,7 @@ impl<'h, W: Write> Writer<'h, W> {
 }
 
 /// What a hand does, as JSON.
-pub(in crate::log) fn write_state(line: &mut Vec<u8>, state: &HandState, header: &Header) {
+pub(crate) fn write_state(line: &mut Vec<u8>, state: &HandState, header: &Header) {
     let name = |object: Option<super::super::ObjectId>| {
         object.map_or(String::from("null"), |object| quoted(&header.objects[object.index()].name))
     };
@@ -105,7 +105,7 @@ fn write_facts(line: &mut Vec<u8>, facts: &[Fact]) {
 }
 
 /// A fact as a list of words.
-pub(in crate::log) fn words(fact: &Fact) -> Vec<&str> {
+pub(crate) fn words(fact: &Fact) -> Vec<&str> {
     std::iter::once(&fact.predicate).chain(&fact.arguments).map(String::as_str).collect()
 }
 
@@ -156,7 +156,7 @@ fn list(line: &mut Vec<u8>, values: &[f64]) {
 }
 
 /// A number with at most six digits after the point.
-pub(in crate::log) fn number(line: &mut Vec<u8>, value: f64) {
+pub(crate) fn number(line: &mut Vec<u8>, value: f64) {
     let millionths = (value * 1e6).round();
     if millionths.abs() >= 9e15 || !millionths.is_finite() {
         // Beyond that six digits are no rounding any more.
@@ -188,7 +188,7 @@ pub(in crate::log) fn number(line: &mut Vec<u8>, value: f64) {
 }
 
 /// A text as a JSON string.
-pub(in crate::log) fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     serde_json::to_string(text).expect("a text is always JSON")
 }
 
