@@ -24,7 +24,22 @@ pub(super) fn conclude(evidence: &Evidence, options: &Options) -> Learned {
             Err(reason) => learned.refused.push(Refusal { action, reason }),
         }
     }
+    while let Some(at) =
+        learned.actions.iter().position(|action| lonely(&learned, action).is_some())
+    {
+        let action = learned.actions.remove(at);
+        if let Some(partner) = lonely(&learned, &action) {
+            let reason = Reason::Partner { partner };
+            learned.refused.push(Refusal { action: action.action, reason });
+        }
+    }
     learned
+}
+
+/// A partner that an action demands and that is refused.
+fn lonely(learned: &Learned, action: &Action) -> Option<ActionId> {
+    let refused = |id: &ActionId| learned.refused.iter().any(|refusal| refusal.action == *id);
+    action.partners.iter().map(|partner| partner.action).find(refused)
 }
 
 fn one(

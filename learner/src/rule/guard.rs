@@ -148,6 +148,19 @@ impl Guarding<'_> {
         })
     }
 
+    /// Whether some clause says that the fact is kept, and nothing else may delete it.
+    fn kept(&self, class: &[usize], guard: &Guard) -> bool {
+        let gone = |at: &usize| self.deletes(*at) == Status::Yes || self.may_delete(*at, guard);
+        self.settled.open.iter().filter(|clause| clause.claim == Claim::Keeps).any(|clause| {
+            let mut open = clause.literals.iter().filter(|one| self.may(Claim::Keeps, **one));
+            open.all(|one| class.iter().any(|at| self.id(*at) == *one))
+                && class
+                    .iter()
+                    .filter(|at| gone(at))
+                    .all(|at| clause.literals.contains(&self.id(*at)))
+        })
+    }
+
     /// What makes it unclear whether the fact that all of `class` are holds afterwards.
     fn harm(&self, class: &[usize], guard: &Guard) -> Option<Unclear> {
         let any = |test: &dyn Fn(usize) -> bool| class.iter().copied().find(|at| test(*at));
@@ -163,7 +176,7 @@ impl Guarding<'_> {
             return None;
         }
         let held = any(&|at| self.required[at]).is_some();
-        if held && self.whole_clause(class, Claim::Keeps) {
+        if held && self.kept(class, guard) {
             return None;
         }
         if let Some(at) = open_add {

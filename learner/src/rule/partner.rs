@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use lang::model::{ActionId, Term};
+use lang::model::{ActionId, Atom, Term};
 
-use super::evidence::{Evidence, LiteralId, Record};
+use super::evidence::{Claim, Clause, Evidence, LiteralId, Record};
 use super::settle::{Settled, Status};
 use super::{Company, Partner};
 
@@ -27,13 +27,8 @@ pub(super) fn partners(
         let ties = evidence.company.get(&literal).filter(|_| record.counts[at].alone == 0);
         let ties = ties.or_else(|| evidence.contact.get(&literal).filter(|_| near));
         let Some(ties) = ties else { continue };
-        let is_effect = |list: &[Status]| match list[literal.index()] {
-            Status::Yes => true,
-            Status::Open => in_open_clause(settled, literal),
-            Status::No => false,
-        };
-        let effect = is_effect(&settled.adds) || is_effect(&settled.deletes);
-        if !effect {
+        let (adds, deletes) = (settled.adds[literal.index()], settled.deletes[literal.index()]);
+        if adds == Status::No && deletes == Status::No {
             continue;
         }
         let mut others: BTreeMap<ActionId, (u32, Vec<Option<Term>>)> = BTreeMap::new();
@@ -49,8 +44,18 @@ pub(super) fn partners(
         }
         let most = others.into_iter().rev().max_by_key(|(_, (weight, _))| *weight);
         let Some((action, (_, arguments))) = most else { continue };
+        let sure = adds == Status::Yes || deletes == Status::Yes;
+        let own = &record.atoms[at];
+        if !sure && !explained(evidence, settled, (literal, own), (action, &arguments)) {
+            continue;
+        }
         shared[at] = true;
-        match partners.iter_mut().find(|partner| partner.action == action) {
+        let agrees = |partner: &&mut Partner| {
+            let mut pairs = partner.arguments.iter().zip(&arguments);
+            partner.action == action
+                && pairs.all(|(one, other)| one.is_none() || other.is_none() || one == other)
+        };
+        match partners.iter_mut().find(agrees) {
             Some(partner) => {
                 for (common, argument) in partner.arguments.iter_mut().zip(arguments) {
                     *common = common.or(argument);
@@ -62,6 +67,33 @@ pub(super) fn partners(
     (partners, shared)
 }
 
-fn in_open_clause(settled: &Settled<'_>, literal: LiteralId) -> bool {
-    settled.open.iter().any(|clause| clause.literals.contains(&literal))
+/// Whether a change is sure to come in company of a partner: nothing but the literal and the partner can be the cause, and both mean the same fact.
+fn explained(
+    evidence: &Evidence,
+    settled: &Settled<'_>,
+    (literal, own): (LiteralId, &Atom),
+    (action, arguments): (ActionId, &[Option<Term>]),
+) -> bool {
+    let cause = |clause: &Clause, other: LiteralId| {
+        let list = if clause.claim == Claim::Adds { &settled.adds } else { &settled.deletes };
+        if other == literal || list[other.index()] == Status::No {
+            return true;
+        }
+        let (of, at) = evidence.literal(other);
+        let image =
+            evidence.records[of.index()].atoms[at].arguments.iter().map(|term| match term {
+                Term::Variable(id) => arguments[id.index()],
+                Term::Object(_) => Some(*term),
+            });
+        let predicate = evidence.records[of.index()].atoms[at].predicate;
+        of == action
+            && evidence.literal(literal).0 != action
+            && predicate == own.predicate
+            && image.collect::<Option<Vec<Term>>>().as_ref() == Some(&own.arguments)
+    };
+    settled.open.iter().any(|clause| {
+        clause.claim != Claim::Keeps
+            && clause.literals.contains(&literal)
+            && clause.literals.iter().all(|other| cause(clause, *other))
+    })
 }

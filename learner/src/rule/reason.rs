@@ -27,6 +27,11 @@ pub enum Reason {
         /// Actions, and atoms in their parameters, that may have been the cause instead.
         others: Vec<(ActionId, Atom)>,
     },
+    /// It demands another action that is not learned.
+    Partner {
+        /// The other one.
+        partner: ActionId,
+    },
     /// An effect came sometimes, and sometimes it did not.
     Contradicted {
         /// What is an effect sometimes, in the action's parameters.
@@ -67,6 +72,10 @@ impl Refusal {
                     .collect();
                 let others = others.join(" or ");
                 format!("it is not clear whether `{name}` {verb} `{what}`, or {others}")
+            }
+            Reason::Partner { partner } => {
+                let partner = &domain.actions[partner.index()].name.text;
+                format!("`{name}` was only seen together with `{partner}`, which is left out")
             }
             Reason::Contradicted { atom, positive, happened, failed } => {
                 let what = describe(domain, self.action, atom);

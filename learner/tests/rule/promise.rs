@@ -17,6 +17,9 @@ const PLAIN: Kind = Kind { negative: false, agents: false };
 const NEGATIVE: Kind = Kind { negative: true, agents: false };
 const AGENTS: Kind = Kind { negative: false, agents: true };
 
+/// How many random domains each promise is tried on.
+const CASES: u32 = 20000;
+
 /// How often something was allowed.
 #[derive(Default)]
 struct Allowed {
@@ -101,8 +104,11 @@ fn joint(
             if model.join(&model.initial(), &parts, Concurrency::Safe).is_err() {
                 continue;
             }
-            allowed += 1;
             let real: Vec<Step> = parts.iter().map(|step| original(learned, step)).collect();
+            if real.iter().any(|step| undoes_itself(&sample.domain, step)) {
+                continue;
+            }
+            allowed += 1;
             let told =
                 || format!("seed {seed}: {parts:?}\n{}\n{}", sample.text, write::text(learned));
             let verdict = truth.join(&truth.initial(), &real, Concurrency::Liberal);
@@ -114,6 +120,26 @@ fn joint(
         }
     }
     allowed
+}
+
+/// Whether a step adds and deletes the same fact, which is not the same in company: then nothing may delete what another part adds.
+fn undoes_itself(domain: &Domain, step: &Step) -> bool {
+    let value = |term: &Term| match term {
+        Term::Variable(id) => step.arguments[id.index()],
+        Term::Object(id) => *id,
+    };
+    let facts = |positive: bool| -> BTreeSet<_> {
+        let effects = domain.actions[step.action.index()].effects.iter();
+        let literals = effects.flat_map(|effect| &effect.literals);
+        let literals = literals.filter(|literal| literal.positive == positive);
+        literals
+            .map(|literal| {
+                let arguments: Vec<ObjectId> = literal.atom.arguments.iter().map(value).collect();
+                (literal.atom.predicate, arguments)
+            })
+            .collect()
+    };
+    !facts(true).is_disjoint(&facts(false))
 }
 
 /// What an intersection over all liftings finds: for each example all atoms that some fact of the state may be an instance of.
@@ -176,7 +202,7 @@ fn terms(domain: &Domain, step: &Step, object: ObjectId) -> Vec<Term> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(600))]
+    #![proptest_config(ProptestConfig::with_cases(CASES))]
 
     #[test]
     fn no_step_of_the_safe_model_fails(seed in any::<u64>()) {
