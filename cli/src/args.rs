@@ -1,6 +1,7 @@
 //! The command line as data.
 
 pub mod excuse;
+pub mod learn;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -61,6 +62,8 @@ pub enum Verb {
     Ground(Ground),
     /// Say why there is no plan, and what would have to be different.
     Excuse(excuse::Excuse),
+    /// Learn operators from demonstrations.
+    Learn(Box<learn::Learn>),
     /// Measure this planner and a peer on the same tasks.
     Bench(Bench),
     /// Explain a diagnostic code.

@@ -74,6 +74,18 @@ pub fn read(path: &Path) -> Result<Text, Complaint> {
     })
 }
 
+/// The first byte of a file that is no blank; none if there is no other.
+pub fn first_byte(path: &Path) -> Result<Option<u8>, Complaint> {
+    let file = fs::File::open(path).map_err(|error| unreadable(path, &error))?;
+    for byte in io::BufReader::new(file).bytes() {
+        let byte = byte.map_err(|error| unreadable(path, &error))?;
+        if !byte.is_ascii_whitespace() {
+            return Ok(Some(byte));
+        }
+    }
+    Ok(None)
+}
+
 /// What to say of a file that cannot be read.
 fn unreadable(path: &Path, error: &io::Error) -> Complaint {
     let name = name(path);

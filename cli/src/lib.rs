@@ -32,6 +32,7 @@ pub mod validate;
 pub mod compile;
 pub mod ground;
 pub mod excuse;
+pub mod learn;
 pub mod bench;
 pub mod explain;
 pub mod lsp;
@@ -89,6 +90,7 @@ fn dispatch(arguments: &[OsString], terminal: &mut Terminal) -> Exit {
         Verb::Compile(arguments) => compile::run(&arguments, terminal),
         Verb::Ground(arguments) => ground::run(&arguments, terminal),
         Verb::Excuse(arguments) => excuse::run(&arguments, terminal),
+        Verb::Learn(arguments) => learn::run(&arguments, terminal),
         Verb::Explain(arguments) => explain::run(&arguments, terminal),
         Verb::Bench(arguments) => bench::run(&arguments, terminal),
         Verb::Lsp(arguments) => lsp::run(&arguments, terminal),
