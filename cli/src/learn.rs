@@ -91,7 +91,7 @@ fn options(arguments: &Learn) -> rule::Options {
         rule,
         negative: arguments.negative,
         tolerance: arguments.tolerance,
-        joint: true,
+        joint: rule::Company::Together,
     }
 }
 

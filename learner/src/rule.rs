@@ -24,7 +24,7 @@ mod conclude;
 mod reason;
 pub mod schema;
 
-use lang::model::{ActionId, Atom, Domain, Term};
+use lang::model::{ActionId, Atom, Domain, PredicateId, Term};
 
 use crate::trace::Trace;
 
@@ -56,7 +56,7 @@ pub enum Company {
 }
 
 /// How to learn.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Options {
     /// Which bound counts.
     pub rule: Rule,
@@ -66,6 +66,8 @@ pub struct Options {
     pub tolerance: f64,
     /// When actions of several agents demand each other.
     pub joint: Company,
+    /// What is said of hands: the lower bound demands it also where it does not change, as the thesis has it.
+    pub hand: Vec<PredicateId>,
 }
 
 /// What was learned.
@@ -94,7 +96,7 @@ pub struct Action {
     pub sources: Vec<(String, u32)>,
     /// The upper bound of the precondition: what always held before.
     pub required: Vec<Atom>,
-    /// The lower bound: what always held before and is deleted.
+    /// The lower bound: what always held before and is deleted, or is said of hands.
     pub changed: Vec<Atom>,
     /// What must not hold before; empty without [`Options::negative`].
     pub absent: Vec<Atom>,

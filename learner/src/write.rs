@@ -132,7 +132,11 @@ fn head(learned: &Learned) -> String {
 
 /// How often an action was seen, and what is doubtful about it.
 pub(crate) fn comment(learned: &Learned, action: &Action) -> String {
-    let times = |count: u32| if count == 1 { "once".to_owned() } else { format!("{count} times") };
+    let times = |count: u32| match count {
+        1 => "once".to_owned(),
+        2 => "twice".to_owned(),
+        _ => format!("{count} times"),
+    };
     let mut text = match action.sources.as_slice() {
         [] => format!("Seen {}.", times(action.count)),
         [(name, _)] => format!("Seen {} in {name}.", times(action.count)),

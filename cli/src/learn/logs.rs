@@ -207,7 +207,7 @@ fn truths<'h>(
     let file = File::open(path).map_err(|error| {
         Complaint::new(format!("`{}` cannot be read: {error}", files::name(path)))
     })?;
-    let reader = truth::json::Reader::new(BufReader::new(file), header).map_err(bad)?;
+    let reader = truth::Reader::new(BufReader::new(file), header).map_err(bad)?;
     let all: Result<Vec<truth::Truth>, BadLine> = reader.collect();
     Ok(all.map_err(bad)?.into_iter())
 }

@@ -3,7 +3,7 @@
 use lang::execute::Executor;
 use lang::execute::joint::Concurrency;
 use lang::model::{Domain, Problem};
-use lang::plan::joint::JointPlan;
+use lang::plan::JointPlan;
 use lang::plan::{Plan, Step};
 use lang::source::Sources;
 use lang::validate::{self, Verdict, joint};
@@ -96,7 +96,7 @@ pub fn judge(domain: &str, problem: &str, told: &Told) -> Result<(), String> {
         .map(|step| step.iter().map(|one| find(&domain, &problem, one)).collect())
         .collect();
     let steps = steps?;
-    let executor = Executor::new(&domain, &problem).map_err(|error| error.to_string())?;
+    let executor = Executor::new(&domain, &problem).map_err(|_| "its axioms go round in circles".to_owned())?;
     if domain.is_multi_agent() {
         let plan = JointPlan { steps };
         let verdict = joint::judge(&executor, &plan, Concurrency::Liberal);

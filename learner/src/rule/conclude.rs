@@ -44,7 +44,7 @@ fn lonely(learned: &Learned, action: &Action) -> Option<ActionId> {
 
 fn one(
     evidence: &Evidence,
-    settled: &Settled<'_>,
+    settled: &Settled,
     action: ActionId,
     options: &Options,
 ) -> Result<Action, Reason> {
@@ -104,13 +104,15 @@ fn one(
         of: record.seen,
         usual: evidence.usual[record.atoms[at].predicate.index()],
     };
-    let doubtful = all.clone().filter(|at| required[*at] && !deletes(at));
+    let hand = |at: &usize| options.hand.contains(&record.atoms[*at].predicate);
+    let lower = |at: &usize| required[*at] && (deletes(at) || hand(at));
+    let doubtful = all.clone().filter(|at| required[*at] && !lower(at));
     Ok(Action {
         action,
         count: record.seen,
         sources: record.sources.clone(),
         required: pick(&|at| required[*at]),
-        changed: pick(&|at| required[*at] && deletes(at)),
+        changed: pick(&lower),
         absent: pick(&|at| absent(at) || guard.absent.contains(at)),
         adds: pick(&adds),
         deletes: pick(&deletes),
@@ -126,7 +128,7 @@ fn effect(status: Status, shared: bool) -> bool {
     status == Status::Yes || (status == Status::Open && shared)
 }
 
-fn contradicted(record: &Record, settled: &Settled<'_>) -> Option<Reason> {
+fn contradicted(record: &Record, settled: &Settled) -> Option<Reason> {
     let own = record.first..record.first + record.atoms.len() as u32;
     let found = settled.contradictions.iter().find(|found| own.contains(&found.literal.0))?;
     Some(Reason::Contradicted {
@@ -138,7 +140,7 @@ fn contradicted(record: &Record, settled: &Settled<'_>) -> Option<Reason> {
 }
 
 /// What else may have been the cause of an unclear effect.
-fn reason(evidence: &Evidence, settled: &Settled<'_>, unclear: Unclear) -> Reason {
+fn reason(evidence: &Evidence, settled: &Settled, unclear: Unclear) -> Reason {
     let atom = |literal: LiteralId| {
         let (action, at) = evidence.literal(literal);
         (action, evidence.records[action.index()].atoms[at].clone())

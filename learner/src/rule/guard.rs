@@ -32,7 +32,7 @@ pub(super) struct Unclear {
 /// What is known of the action that is looked at.
 pub(super) struct Guarding<'e> {
     pub(super) evidence: &'e Evidence,
-    pub(super) settled: &'e Settled<'e>,
+    pub(super) settled: &'e Settled,
     pub(super) record: &'e Record,
     pub(super) action: &'e Action,
     /// Which of its atoms are demanded.
@@ -51,8 +51,8 @@ impl Guarding<'_> {
             let classes = self.classes(&guard);
             let harm = classes.iter().find_map(|class| self.harm(class, &guard));
             let Some(unclear) = harm else {
-                self.keep_apart(&classes, &mut guard);
                 self.settle(&classes, &mut guard);
+                self.keep_apart(&classes, &mut guard);
                 return Ok(guard);
             };
             if self.unite(unclear, &mut guard) {
@@ -150,48 +150,46 @@ impl Guarding<'_> {
 
     /// Whether some clause says that the fact is kept, and nothing else may delete it.
     fn kept(&self, class: &[usize], guard: &Guard) -> bool {
-        let gone = |at: &usize| self.deletes(*at) == Status::Yes || self.may_delete(*at, guard);
+        if class.iter().any(|at| self.deletes(*at) == Status::Yes) {
+            return false;
+        }
         self.settled.open.iter().filter(|clause| clause.claim == Claim::Keeps).any(|clause| {
             let mut open = clause.literals.iter().filter(|one| self.may(Claim::Keeps, **one));
+            let mut gone = class.iter().filter(|at| self.may_delete(**at, guard));
             open.all(|one| class.iter().any(|at| self.id(*at) == *one))
-                && class
-                    .iter()
-                    .filter(|at| gone(at))
-                    .all(|at| clause.literals.contains(&self.id(*at)))
+                && gone.all(|at| clause.literals.contains(&self.id(*at)))
         })
     }
 
     /// What makes it unclear whether the fact that all of `class` are holds afterwards.
     fn harm(&self, class: &[usize], guard: &Guard) -> Option<Unclear> {
-        let any = |test: &dyn Fn(usize) -> bool| class.iter().copied().find(|at| test(*at));
-        let open_add = any(&|at| self.adds(at) == Status::Open);
-        let may_delete = any(&|at| self.may_delete(at, guard));
-        if open_add.is_none() && may_delete.is_none() {
-            return None;
-        }
-        if any(&|at| self.adds(at) == Status::Yes).is_some() {
-            return None;
-        }
         if self.whole_clause(class, Claim::Adds) {
             return None;
         }
-        let held = any(&|at| self.required[at]).is_some();
+        let held = class.iter().any(|at| self.required[*at]);
         if held && self.kept(class, guard) {
             return None;
         }
-        if let Some(at) = open_add {
-            let kept = class.iter().all(|at| {
-                self.deletes(*at) == Status::No
-                    || (self.deletes(*at) == Status::Open && !self.may_delete(*at, guard))
-            });
-            return (!held || !kept).then(|| Unclear { literal: self.id(at), claim: Claim::Adds });
-        }
-        if any(&|at| self.deletes(at) == Status::Yes).is_some()
-            || self.whole_clause(class, Claim::Deletes)
-        {
+        self.doubt(class, guard).filter(|unclear| {
+            unclear.claim == Claim::Adds || !self.whole_clause(class, Claim::Deletes)
+        })
+    }
+
+    /// The same where only effects that are written count, as for atoms that happen to be the same fact.
+    fn doubt(&self, class: &[usize], guard: &Guard) -> Option<Unclear> {
+        let any = |test: &dyn Fn(usize) -> bool| class.iter().copied().find(|at| test(*at));
+        if any(&|at| self.adds(at) == Status::Yes || guard.adds.contains(&at)).is_some() {
             return None;
         }
-        may_delete.map(|at| Unclear { literal: self.id(at), claim: Claim::Deletes })
+        let deleted = any(&|at| self.deletes(at) == Status::Yes || guard.deletes.contains(&at));
+        let may_delete = any(&|at| self.may_delete(at, guard));
+        if let Some(at) = any(&|at| self.adds(at) == Status::Open) {
+            let held = class.iter().any(|at| self.required[*at]);
+            let kept = deleted.is_none() && may_delete.is_none();
+            return (!held || !kept).then(|| Unclear { literal: self.id(at), claim: Claim::Adds });
+        }
+        let at = may_delete.filter(|_| deleted.is_none())?;
+        Some(Unclear { literal: self.id(at), claim: Claim::Deletes })
     }
 
     /// Demands that all that may be the cause of a change are the same fact; says whether that is possible.
@@ -236,7 +234,10 @@ impl Guarding<'_> {
     fn keep_apart(&self, classes: &[Vec<usize>], guard: &mut Guard) {
         let fixed = guard.clone();
         let open = |at: &usize| self.adds(*at) == Status::Open || self.may_delete(*at, &fixed);
-        let gone = |at: &usize| self.deletes(*at) == Status::Yes || self.may_delete(*at, &fixed);
+        let gone = |at: &usize| {
+            let written = self.deletes(*at) == Status::Yes || fixed.deletes.contains(at);
+            written || self.may_delete(*at, &fixed)
+        };
         let doubtful = |class: &&Vec<usize>| class.iter().any(open);
         let deletes = |class: &&Vec<usize>| class.iter().any(gone);
         let deleting: Vec<&Vec<usize>> = classes.iter().filter(deletes).collect();
@@ -250,7 +251,7 @@ impl Guarding<'_> {
                     continue;
                 }
                 let both: Vec<usize> = class.iter().chain(other.iter()).copied().collect();
-                if self.harm(&both, &fixed).is_some() {
+                if self.doubt(&both, &fixed).is_some() {
                     self.separate(one, two, guard);
                 }
             }

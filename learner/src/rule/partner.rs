@@ -14,7 +14,7 @@ use super::{Company, Partner};
 /// Of several such parts the one that was there most often is demanded; in that company the effect always came.
 pub(super) fn partners(
     evidence: &Evidence,
-    settled: &Settled<'_>,
+    settled: &Settled,
     record: &Record,
     company: Company,
 ) -> (Vec<Partner>, Vec<bool>) {
@@ -70,7 +70,7 @@ pub(super) fn partners(
 /// Whether a change is sure to come in company of a partner: nothing but the literal and the partner can be the cause, and both mean the same fact.
 fn explained(
     evidence: &Evidence,
-    settled: &Settled<'_>,
+    settled: &Settled,
     (literal, own): (LiteralId, &Atom),
     (action, arguments): (ActionId, &[Option<Term>]),
 ) -> bool {

@@ -25,16 +25,16 @@ pub(super) struct Contradiction {
 
 /// What is known of all literals.
 #[derive(Debug, Clone)]
-pub(super) struct Settled<'e> {
+pub(super) struct Settled {
     pub(super) adds: Vec<Status>,
     pub(super) deletes: Vec<Status>,
     pub(super) contradictions: Vec<Contradiction>,
     /// The clauses that are not resolved: two at least of their literals are open, and none is an effect.
-    pub(super) open: Vec<&'e Clause>,
+    pub(super) open: Vec<Clause>,
 }
 
 /// Settles what can be settled. In each contradiction the majority counts; it is none if the minority is within the tolerance.
-pub(super) fn settle<'e>(evidence: &'e Evidence, tolerance: f64) -> Settled<'e> {
+pub(super) fn settle(evidence: &Evidence, tolerance: f64) -> Settled {
     let mut settled = Settled {
         adds: Vec::new(),
         deletes: Vec::new(),
@@ -54,11 +54,14 @@ pub(super) fn settle<'e>(evidence: &'e Evidence, tolerance: f64) -> Settled<'e> 
     for at in 0..settled.adds.len() {
         settled.exclude(LiteralId(at as u32));
     }
-    let mut waiting: Vec<(&Clause, u32)> =
-        evidence.clauses.iter().map(|(clause, weight)| (clause, *weight)).collect();
+    let mut waiting: Vec<(Clause, u32)> = evidence
+        .clauses
+        .iter()
+        .map(|(clause, weight)| (sharpened(evidence, clause), *weight))
+        .collect();
     loop {
         let before = waiting.len();
-        waiting.retain(|(clause, weight)| !settled.resolve(clause, *weight));
+        waiting.retain_mut(|(clause, weight)| !settled.resolve(clause, *weight));
         if waiting.len() == before {
             break;
         }
@@ -67,7 +70,15 @@ pub(super) fn settle<'e>(evidence: &'e Evidence, tolerance: f64) -> Settled<'e> 
     settled
 }
 
-impl Settled<'_> {
+/// The clause; where something of what is kept is surely deleted, it says that something is added.
+fn sharpened(evidence: &Evidence, clause: &Clause) -> Clause {
+    let within = |other: &Clause| other.literals.iter().all(|one| clause.literals.contains(one));
+    let mut deleting = evidence.clauses.keys().filter(|other| other.claim == Claim::Deletes);
+    let added = clause.claim == Claim::Keeps && deleting.any(within);
+    Clause { claim: if added { Claim::Adds } else { clause.claim }, ..clause.clone() }
+}
+
+impl Settled {
     fn vote(
         &mut self,
         literal: LiteralId,
@@ -106,7 +117,11 @@ impl Settled<'_> {
     }
 
     /// Draws what follows from a clause; says whether nothing more can.
-    fn resolve(&mut self, clause: &Clause, weight: u32) -> bool {
+    fn resolve(&mut self, clause: &mut Clause, weight: u32) -> bool {
+        let gone = |literal: &LiteralId| self.deletes[literal.index()] == Status::Yes;
+        if clause.claim == Claim::Keeps && clause.literals.iter().any(gone) {
+            clause.claim = Claim::Adds;
+        }
         if clause.claim == Claim::Keeps {
             return self.keep(clause);
         }
@@ -134,7 +149,7 @@ impl Settled<'_> {
         }
     }
 
-    /// One is added, or none is deleted.
+    /// One is added, or none is deleted; none of them is known to be deleted.
     fn keep(&mut self, clause: &Clause) -> bool {
         let literals = &clause.literals;
         let any = |list: &[Status], wanted: Status| {
@@ -143,12 +158,7 @@ impl Settled<'_> {
         if any(&self.adds, Status::Yes) {
             return true;
         }
-        let open: Vec<LiteralId> = literals
-            .iter()
-            .filter(|literal| self.adds[literal.index()] == Status::Open)
-            .copied()
-            .collect();
-        if open.is_empty() {
+        if !any(&self.adds, Status::Open) {
             for &literal in literals {
                 if self.deletes[literal.index()] == Status::Open {
                     self.set(Claim::Deletes, literal, Status::No);
@@ -156,10 +166,6 @@ impl Settled<'_> {
             }
             return true;
         }
-        if any(&self.deletes, Status::Yes) && open.len() == 1 {
-            self.set(Claim::Adds, open[0], Status::Yes);
-            return true;
-        }
-        !any(&self.deletes, Status::Open) && !any(&self.deletes, Status::Yes)
+        !any(&self.deletes, Status::Open)
     }
 }

@@ -1,6 +1,6 @@
 //! Small demonstrations, and the domains that are learned from them as a person reads them.
 
-use lang::model::{Term, VariableId};
+use lang::model::{PredicateId, Term, VariableId};
 use learner::rule::schema::Schema;
 use learner::rule::{self, Company, Evidence, Options, Reason, Rule};
 use learner::trace::vocabulary;
@@ -42,6 +42,13 @@ fn the_rule_of_the_thesis_demands_what_changes() {
     let text = write::text(&rule::learn(&domain, &traces, &options));
     insta::assert_snapshot!(text);
     assert_eq!(warnings(&text), [""; 0]);
+    // What is said of hands counts even where it stays.
+    let free = PredicateId(3);
+    let options = Options { rule: Rule::Changed, hand: vec![free], ..Options::default() };
+    let learned = rule::learn(&domain, &traces, &options);
+    let pull = action(&learned, "pull");
+    assert_eq!(pull.changed.iter().map(|atom| atom.predicate).collect::<Vec<_>>(), [free]);
+    assert_eq!(pull.doubts.len(), 1);
 }
 
 #[test]
