@@ -2,6 +2,7 @@
 
 pub mod excuse;
 pub mod learn;
+pub mod simulate;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -64,6 +65,8 @@ pub enum Verb {
     Excuse(excuse::Excuse),
     /// Learn operators from demonstrations.
     Learn(Box<learn::Learn>),
+    /// Let somebody demonstrate in a physical world, or carry a plan out there.
+    Simulate(simulate::Simulate),
     /// Measure this planner and a peer on the same tasks.
     Bench(Bench),
     /// Explain a diagnostic code.

@@ -92,6 +92,7 @@ fn options(arguments: &Learn) -> rule::Options {
         negative: arguments.negative,
         tolerance: arguments.tolerance,
         joint: rule::Company::Together,
+        hand: Vec::new(),
     }
 }
 

@@ -33,6 +33,7 @@ pub mod compile;
 pub mod ground;
 pub mod excuse;
 pub mod learn;
+pub mod simulate;
 pub mod bench;
 pub mod explain;
 pub mod lsp;
@@ -91,6 +92,7 @@ fn dispatch(arguments: &[OsString], terminal: &mut Terminal) -> Exit {
         Verb::Ground(arguments) => ground::run(&arguments, terminal),
         Verb::Excuse(arguments) => excuse::run(&arguments, terminal),
         Verb::Learn(arguments) => learn::run(&arguments, terminal),
+        Verb::Simulate(arguments) => simulate::run(&arguments, terminal),
         Verb::Explain(arguments) => explain::run(&arguments, terminal),
         Verb::Bench(arguments) => bench::run(&arguments, terminal),
         Verb::Lsp(arguments) => lsp::run(&arguments, terminal),

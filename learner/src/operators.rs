@@ -17,7 +17,7 @@ pub mod letter;
 pub mod track;
 pub mod routine;
 
-use lang::model::Domain;
+use lang::model::{Domain, PredicateId};
 
 use crate::rule::{self, Learned};
 
@@ -69,10 +69,35 @@ pub fn learn(
         lines.push((found, line));
     }
     let traces: Vec<_> = lines.iter().map(|(_, line)| line.trace.clone()).collect();
-    let mut learned = rule::learn(&lexicon.domain(), &traces, &options.rule);
+    let domain = lexicon.domain();
+    let hand = of_hands(&domain, demonstrations);
+    let mut learned =
+        rule::learn(&domain, &traces, &rule::Options { hand, ..options.rule.clone() });
     if options.agents {
         let told: Vec<(&Deeds, &Line)> = lines.iter().map(|(deeds, line)| (deeds, line)).collect();
         synergy::partners(&told, &mut learned);
     }
     Taught { learned, lines, missing: lexicon.missing.into_iter().collect() }
+}
+
+/// The predicates that say what a hand does; the rule of the thesis treats them in another way than those of the surroundings.
+fn of_hands(domain: &Domain, demonstrations: &[(Record, Words)]) -> Vec<PredicateId> {
+    let is_one = |name: &str| {
+        demonstrations.iter().any(|(_, words)| {
+            let vocabulary = &words.vocabulary;
+            [
+                &vocabulary.in_hand,
+                &vocabulary.hand_empty,
+                &vocabulary.acted_on,
+                &vocabulary.hand_moves,
+            ]
+            .iter()
+            .any(|pattern| pattern.predicate.eq_ignore_ascii_case(name))
+        })
+    };
+    let places = domain.predicates.iter().enumerate();
+    places
+        .filter(|(_, predicate)| is_one(&predicate.name.text))
+        .map(|(place, _)| PredicateId(place as u32))
+        .collect()
 }

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use indicatif::{ProgressBar, ProgressStyle};
 use lang::model::Domain;
 use learner::log::{BadLine, Frame, Header, csv, json};
+use learner::moves::{self, Constrained};
 use learner::observe::{Config, Observer, Vocabulary};
 use learner::operators::record::{Record, Recorder};
 use learner::operators::routine::{Shown, routines};
@@ -16,7 +17,8 @@ use learner::operators::words::Words;
 use learner::operators::{Options, Taught, learn as learn_operators, letter};
 use learner::rule::Learned;
 use learner::segment::{self, Induction, Samples, Segment, Segmenter, Tree};
-use learner::{moves, problem, truth};
+use learner::waypoints::Routine;
+use learner::{problem, truth};
 
 use super::{Failure, Kind, deliver, groups, options, report, text, verify, write_with};
 use crate::args::learn::{BadLines, Learn, RuleName, SynergyName};
@@ -341,14 +343,19 @@ fn operators(
         let times = if *count == 1 { "once".to_owned() } else { format!("{count} times") };
         terminal.say(format_args!("note: the domain does not have {what}, which came up {times}."));
     }
+    let mut constrained = Constrained::new();
     let text = match &known {
         Some((domain, source, _)) => super::extend::merged(source, domain, &learned, terminal),
         None => {
             report(&learned, terminal);
-            whole(arguments, config, &taught, &learned)
+            let (text, moves) = whole(arguments, config, &taught, &learned);
+            constrained = moves;
+            text
         }
     };
-    write_beside(arguments, &demonstrations, &tracks, &taught, &learned, &text, terminal)?;
+    let products =
+        Products { taught: &taught, learned: &learned, text: &text, constrained: &constrained };
+    write_beside(arguments, &demonstrations, &tracks, &products, terminal)?;
     deliver(arguments.output.as_deref(), &text, terminal)?;
     Ok(!learned.actions.is_empty())
 }
@@ -380,20 +387,37 @@ fn tell(record: &Record, line: &learner::operators::line::Line, terminal: &mut T
 }
 
 /// The text of a domain of its own.
-fn whole(arguments: &Learn, config: &Config, taught: &Taught, learned: &Learned) -> String {
+fn whole(
+    arguments: &Learn,
+    config: &Config,
+    taught: &Taught,
+    learned: &Learned,
+) -> (String, Constrained) {
+    let mut constrained = Constrained::new();
     let traces: Vec<_> = taught.lines.iter().map(|(_, line)| line.trace.clone()).collect();
     let groups = groups(&taught.learned.domain, &traces);
     let vocabulary = &config.vocabulary;
-    text(learned, &groups, |domain, style| {
+    let text = text(learned, &groups, |domain, style| {
         if arguments.agents {
-            moves::constrain(
+            constrained = moves::constrain(
                 domain,
                 style,
                 &vocabulary.at.predicate,
                 &vocabulary.reachable.predicate,
             );
         }
-    })
+    });
+    (text, constrained)
+}
+
+/// What came of demonstrations.
+struct Products<'a> {
+    taught: &'a Taught,
+    learned: &'a Learned,
+    /// The domain.
+    text: &'a str,
+    /// The moves that keep shared places free, each with the one that it refines.
+    constrained: &'a Constrained,
 }
 
 /// Writes the problem, the plan, the trace and the way points, as far as they were asked for, and says whether the demonstrations are plans.
@@ -401,11 +425,10 @@ fn write_beside(
     arguments: &Learn,
     demonstrations: &[(Record, Words)],
     tracks: &[Tracks],
-    taught: &Taught,
-    learned: &Learned,
-    text: &str,
+    products: &Products<'_>,
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
+    let Products { taught, learned, text, constrained } = *products;
     let (record, words) = &demonstrations[0];
     let domain = model(text);
     let begin = problem::beginning(&domain, record, words);
@@ -419,7 +442,7 @@ fn write_beside(
         files::write(path, written.as_bytes())?;
     }
     if let Some(path) = &arguments.plan_file {
-        files::write(path, told.text().as_bytes())?;
+        files::write(path, told.text(arguments.agents).as_bytes())?;
     }
     if let Some(path) = &arguments.trace {
         write_with(path, |out| {
@@ -458,7 +481,11 @@ fn write_beside(
                 names_hands: words.names_hands(),
             })
             .collect();
-        let routines = routines(&shown, &taught.learned);
+        let mut routines = routines(&shown, &taught.learned);
+        for (name, like) in constrained {
+            let same = routines.iter().find(|routine| routine.action == *like).cloned();
+            routines.extend(same.map(|same| Routine { action: name.clone(), ..same }));
+        }
         if !routines.is_empty() {
             let text = serde_json::to_string_pretty(&routines).expect("way points are plain data");
             files::write(&beside(output), text.as_bytes())?;

@@ -55,20 +55,18 @@ pub fn told(deeds: &Deeds, line: &Line, learned: &learner::rule::Learned) -> Tol
 }
 
 impl Told {
-    /// As a plan file: one action in a line, those of one joint step in one line.
-    pub fn text(&self) -> String {
+    /// As a plan file: one action in a line; of several agents, with the number of the joint step before it.
+    pub fn text(&self, agents: bool) -> String {
         let mut text = String::new();
-        for step in &self.steps {
-            let parts: Vec<String> = step
-                .iter()
-                .map(|(name, arguments)| {
-                    let words: Vec<&str> =
-                        std::iter::once(name).chain(arguments).map(String::as_str).collect();
-                    format!("({})", words.join(" "))
-                })
-                .collect();
-            text.push_str(&parts.join(" "));
-            text.push('\n');
+        for (number, step) in self.steps.iter().enumerate() {
+            for (name, arguments) in step {
+                let words: Vec<&str> =
+                    std::iter::once(name).chain(arguments).map(String::as_str).collect();
+                if agents {
+                    text.push_str(&format!("{number}: "));
+                }
+                text.push_str(&format!("({})\n", words.join(" ")));
+            }
         }
         text
     }
@@ -96,7 +94,8 @@ pub fn judge(domain: &str, problem: &str, told: &Told) -> Result<(), String> {
         .map(|step| step.iter().map(|one| find(&domain, &problem, one)).collect())
         .collect();
     let steps = steps?;
-    let executor = Executor::new(&domain, &problem).map_err(|_| "its axioms go round in circles".to_owned())?;
+    let executor = Executor::new(&domain, &problem)
+        .map_err(|_| "its axioms go round in circles".to_owned())?;
     if domain.is_multi_agent() {
         let plan = JointPlan { steps };
         let verdict = joint::judge(&executor, &plan, Concurrency::Liberal);
