@@ -6,7 +6,7 @@
 //! - [`truth`]: what really happened in a frame, where somebody knows it;
 //! - [`trace`]: symbolic states and the actions between them, and their text;
 //! - [`rule`]: what the actions of traces demand and do;
-//! - [`write`]: what was learned as a domain.
+//! - [`mod@write`]: what was learned as a domain.
 
 pub mod log;
 pub mod truth;
