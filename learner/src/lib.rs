@@ -7,6 +7,20 @@
 //! - [`trace`]: symbolic states and the actions between them, and their text;
 //! - [`rule`]: what the actions of traces demand and do;
 //! - [`mod@write`]: what was learned as a domain.
+//!
+//! ```
+//! use learner::{rule, trace};
+//!
+//! let text = "((:state (open drawer) (held plate)) (:action (put-in plate drawer)) (:state (open drawer) (inside plate drawer)))";
+//! let (domain, faults) = trace::infer("kitchen", &[text]);
+//! assert!(faults[0].is_empty());
+//! let (demonstration, _) = trace::read(text, &domain, &trace::Reading::default());
+//! let learned = rule::learn(&domain, &[demonstration], &rule::Options::default());
+//! let put_in = &learned.actions[0];
+//! // It changes that the plate is held; that the drawer is open may be needed, too.
+//! assert_eq!((put_in.changed.len(), put_in.required.len(), put_in.doubts.len()), (1, 2, 1));
+//! assert!(learner::write::text(&learned).contains("(not (held ?plate))"));
+//! ```
 
 pub mod log;
 pub mod truth;
