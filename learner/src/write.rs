@@ -4,6 +4,7 @@
 //! All predicates and types of the vocabulary stay, used or not, so that problems in its words can be read.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
 
 use lang::condition::Condition;
 use lang::diagnostic::Severity;
@@ -163,7 +164,7 @@ fn evidence(learned: &Learned, action: &Action, doubt: &Doubt) -> String {
     let mut text = format!("{atom} held {seen} of {of} times");
     if usual.possible > 0 {
         let share = (100 * usual.held).div_ceil(usual.possible).min(100);
-        text.push_str(&format!("; of all such facts {share} % hold"));
+        write!(text, "; of all such facts {share} % hold").expect("a string takes all");
     }
     text
 }
@@ -195,6 +196,6 @@ pub fn quieten(domain: &Domain, style: &mut Style) {
     let names: BTreeSet<&str> = warnings.map(|one| one.name).collect();
     if !names.is_empty() {
         let names: Vec<&str> = names.into_iter().collect();
-        style.head.push_str(&format!("\ncaveat: allow({})", names.join(", ")));
+        write!(style.head, "\ncaveat: allow({})", names.join(", ")).expect("a string takes all");
     }
 }

@@ -1,8 +1,8 @@
-//! Folders of AMLGym or MA-SAM go in (a true `domain.pddl` and traces); how near the learned models come to the true one, and how long learning takes, comes out.
+//! Folders of `AMLGym` or MA-SAM go in (a true `domain.pddl` and traces); how near the learned models come to the true one, and how long learning takes, comes out.
 //!
 //! `cargo run --release -p caveat-learner --example amlgym -- [--out FOLDER] FOLDER…`
 //!
-//! Precision and recall are AMLGym's (`metrics/_syntactic.py` of version 1.0.13): of each true action the atoms of the positive and negative
+//! Precision and recall are those of `AMLGym` (`metrics/_syntactic.py` of version 1.0.13): of each true action the atoms of the positive and negative
 //! preconditions, the adds and the deletes are counted together, and the mean is over the true actions; an action that was not learned
 //! has precision 1 and recall 0. Types and signatures are the true domain's. The time is for reading all traces from memory and learning,
 //! the least of several runs. With `--out` the learned domains are written to `FOLDER/NAME/RULE.pddl`.

@@ -1,4 +1,4 @@
-//! A true domain and a learned one go in; precision and recall as AMLGym defines them come out.
+//! A true domain and a learned one go in; precision and recall as `AMLGym` defines them come out.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -53,7 +53,7 @@ impl Score {
     /// Adds another score, for a mean.
     pub fn add(&mut self, other: &Self) {
         let add = |to: &mut [f64], from: &[f64]| {
-            to.iter_mut().zip(from).for_each(|(to, from)| *to += from)
+            to.iter_mut().zip(from).for_each(|(to, from)| *to += from);
         };
         add(&mut self.precision, &other.precision);
         add(&mut self.recall, &other.recall);

@@ -280,7 +280,9 @@ impl Evidence {
             let (held, holds) = (before.holds(fact), after.holds(fact));
             let literals = distinct(group);
             if !holds {
-                literals.iter().for_each(|literal| self.count(*literal).unadded += 1);
+                for literal in &literals {
+                    self.count(*literal).unadded += 1;
+                }
                 if held {
                     self.change(Claim::Deletes, &literals);
                 }

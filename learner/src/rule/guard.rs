@@ -55,14 +55,12 @@ impl Guarding<'_> {
                 self.keep_apart(&classes, &mut guard);
                 return Ok(guard);
             };
-            if self.unite(unclear, &mut guard) {
-                continue;
-            }
             let at = (unclear.literal.0 - self.record.first) as usize;
-            if unclear.claim == Claim::Adds || self.disputed(at) || self.required[at] {
+            if unclear.claim == Claim::Deletes && !self.disputed(at) && !self.required[at] {
+                guard.absent.push(at);
+            } else if !self.unite(unclear, &mut guard) {
                 return Err(unclear);
             }
-            guard.absent.push(at);
         }
     }
 

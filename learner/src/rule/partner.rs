@@ -20,7 +20,7 @@ pub(super) fn partners(
 ) -> (Vec<Partner>, Vec<bool>) {
     let mut partners: Vec<Partner> = Vec::new();
     let mut shared = vec![false; record.atoms.len()];
-    for at in 0..record.atoms.len() {
+    for (at, own) in record.atoms.iter().enumerate() {
         let literal = LiteralId(record.first + at as u32);
         // Where no other part can have had the effect, it is enough that another was about the same things.
         let near = company == Company::Together && record.counts[at].apart == 0;
@@ -45,7 +45,6 @@ pub(super) fn partners(
         let most = others.into_iter().rev().max_by_key(|(_, (weight, _))| *weight);
         let Some((action, (_, arguments))) = most else { continue };
         let sure = adds == Status::Yes || deletes == Status::Yes;
-        let own = &record.atoms[at];
         if !sure && !explained(evidence, settled, (literal, own), (action, &arguments)) {
             continue;
         }

@@ -5,7 +5,7 @@ use lang::model::{self, Atom, Term, TypeId, VariableId};
 
 use super::{Learned, Rule};
 
-/// An action as STRIPS has it. Variables are its parameters, in their order.
+/// An action as STRIPS has it. Variables are its parameters, in their order; each list has an atom once.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Schema {
     /// The types of each parameter, any of which will do.
@@ -51,7 +51,9 @@ impl Schema {
             }
             for literal in &effect.literals {
                 let list = if literal.positive { &mut schema.adds } else { &mut schema.deletes };
-                list.push(literal.atom.clone());
+                if !list.contains(&literal.atom) {
+                    list.push(literal.atom.clone());
+                }
             }
         }
         let adds = schema.adds.clone();

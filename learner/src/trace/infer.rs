@@ -102,9 +102,9 @@ impl<'t> Found<'t> {
             self.parents.extend(first..first + words.len());
             let head = Head { name, first, arity: words.len() };
             if fact {
-                self.predicates.push(head)
+                self.predicates.push(head);
             } else {
-                self.actions.push(head)
+                self.actions.push(head);
             }
             self.numbers.insert(key, number);
         }
@@ -115,15 +115,13 @@ impl<'t> Found<'t> {
             return Some(format!("`{name}` took {arity} arguments before, and here are {found}"));
         }
         for (at, word) in words.into_iter().enumerate() {
-            let object = match self.objects.get(&word.to_ascii_lowercase()) {
-                Some(&object) => object,
-                None => {
-                    let node = self.node();
-                    self.objects.insert(word.to_ascii_lowercase(), node);
-                    self.names.push((word, node));
-                    node
-                }
-            };
+            let known = self.objects.get(&word.to_ascii_lowercase()).copied();
+            let object = known.unwrap_or_else(|| {
+                let node = self.node();
+                self.objects.insert(word.to_ascii_lowercase(), node);
+                self.names.push((word, node));
+                node
+            });
             let (one, other) = (self.root(first + at), self.root(object));
             self.parents[one.max(other)] = one.min(other);
         }

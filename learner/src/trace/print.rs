@@ -1,4 +1,4 @@
-//! A [`Trace`] goes in; its text comes out, as AMLGym and SAM or as MA-SAM write it.
+//! A [`Trace`] goes in; its text comes out, as `AMLGym` and SAM or as MA-SAM write it.
 
 use lang::model::{Domain, ObjectId};
 use lang::plan::Step;

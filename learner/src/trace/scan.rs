@@ -1,6 +1,6 @@
 //! The text of a trace goes in; its [`Item`]s come out: lists that open and close, and words.
 //!
-//! Both the texts of AMLGym and those of MA-SAM are read by this; a `;` begins a comment.
+//! Both the texts of `AMLGym` and those of MA-SAM are read by this; a `;` begins a comment.
 
 /// A parenthesis or a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

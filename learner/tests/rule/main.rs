@@ -2,6 +2,7 @@
 
 mod small;
 mod noise;
+mod renaming;
 mod random;
 mod promise;
 mod corpus;

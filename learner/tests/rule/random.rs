@@ -1,5 +1,7 @@
 //! A seed goes in; a small random domain, problems in it and traces of random actions come out.
 
+use std::fmt::Write;
+
 use lang::execute::joint::Concurrency;
 use lang::execute::{Executor, State};
 use lang::model::{ActionId, Domain, Fact, ObjectId, PredicateId, Problem};
@@ -8,6 +10,9 @@ use lang::source::Sources;
 use learner::trace::{FactId, Joint, Trace};
 
 use super::words::domain;
+
+/// Why writing to a string does not fail.
+const TAKES_ALL: &str = "a string takes all";
 
 /// Numbers that look random, the same for the same seed.
 pub struct Dice(u64);
@@ -72,19 +77,21 @@ pub fn text(dice: &mut Dice, kind: Kind) -> String {
     text.push_str("(:predicates");
     for (name, types) in &predicates {
         let types = types.iter().enumerate().map(|(at, kind)| format!(" ?x{at} - {kind}"));
-        text.push_str(&format!(" ({name}{})", types.collect::<String>()));
+        let types: Vec<String> = types.collect();
+        text.push_str(&[" (", name, &types.concat(), ")"].concat());
     }
     text.push_str(")\n");
-    for at in 0..1 + dice.below(3) {
+    for at in 0..=dice.below(3) {
         let arity = 1 + dice.below(3);
         let mut terms: Vec<(String, &str)> =
             (0..arity).map(|at| (format!("?x{at}"), dice.pick(&names))).collect();
-        let list: String = terms.iter().map(|(name, kind)| format!("{name} - {kind} ")).collect();
+        let list = terms.iter().map(|(name, kind)| format!("{name} - {kind}"));
+        let list = list.collect::<Vec<String>>().join(" ");
         if kind.agents {
-            text.push_str(&format!("(:action act{at} :agent ?g - g :parameters ({list})"));
+            write!(text, "(:action act{at} :agent ?g - g :parameters ({list})").expect(TAKES_ALL);
             terms.push(("?g".to_owned(), "g"));
         } else {
-            text.push_str(&format!("(:action act{at} :parameters ({list})"));
+            write!(text, "(:action act{at} :parameters ({list})").expect(TAKES_ALL);
         }
         terms.extend(constant.map(|(name, kind)| (name.to_owned(), kind)));
         let atom = |dice: &mut Dice| {
@@ -100,7 +107,7 @@ pub fn text(dice: &mut Dice, kind: Kind) -> String {
                     return None;
                 }
                 text.push(' ');
-                text.push_str(&dice.pick(&fit));
+                text.push_str(dice.pick(&fit));
             }
             Some(format!("({text})"))
         };
@@ -116,15 +123,18 @@ pub fn text(dice: &mut Dice, kind: Kind) -> String {
         adds.retain(|atom| !kind.agents || !required.contains(atom));
         let mut deletes = if kind.negative { some(dice, 2) } else { Vec::new() };
         deletes.extend(required.iter().filter(|_| dice.chance(50)).cloned());
-        let no =
-            |list: &[String]| list.iter().map(|atom| format!("(not {atom})")).collect::<String>();
-        text.push_str(&format!(
+        let no = |list: &[String]| {
+            list.iter().map(|atom| format!("(not {atom})")).collect::<Vec<String>>().concat()
+        };
+        write!(
+            text,
             "\n  :precondition (and {}{})\n  :effect (and {}{}))\n",
             required.concat(),
             no(&absent),
             adds.concat(),
             no(&deletes)
-        ));
+        )
+        .expect(TAKES_ALL);
     }
     text.push(')');
     text
@@ -201,7 +211,7 @@ pub fn sample(seed: u64, kind: Kind) -> Sample {
     let domain = domain(&text);
     let problem = problem(&mut dice, &domain);
     let mut traces = Vec::new();
-    for at in 0..1 + dice.below(8) {
+    for at in 0..=dice.below(8) {
         let begin = facts(&mut dice, &domain, &problem);
         traces.push(walk(
             &mut dice,
