@@ -64,8 +64,9 @@ pub fn execute(
     let person = Person::ideal();
     let tracker = Tracker::new(&stage, &person, seed);
     let actors = stage.hands().map(|hand| Actor::new(&stage, hand)).collect();
+    let homes = stage.hands().map(|hand| stage.hand(hand)).collect();
     let chance = Chance::new("execution", &[seed]);
-    let mut run = Run { stage, header, actors, tracker, person, chance, frames: Vec::new(), story: Vec::new(), forbidden: false, odd: false };
+    let mut run = Run { stage, header, actors, homes, tracker, person, chance, frames: Vec::new(), story: Vec::new(), forbidden: false, odd: false };
     for steps in plan {
         if run.forbidden || !run.joint_step(steps, routines) {
             run.forbidden = true;
@@ -88,6 +89,8 @@ struct Run {
     stage: Stage,
     header: Header,
     actors: Vec<Actor>,
+    /// Where hands rest.
+    homes: Vec<Isometry3<f64>>,
     tracker: Tracker,
     person: Person,
     chance: Chance,
@@ -156,6 +159,7 @@ impl Run {
                 });
             }
         }
+        self.make_room(&taken);
         let mut clock = 0.0;
         let begin = self.frames.len();
         loop {
@@ -191,6 +195,29 @@ impl Run {
             if (self.frames.len() - begin) as f64 > LONGEST * RATE {
                 self.story.push("A step takes too long and is given up.".to_owned());
                 return false;
+            }
+        }
+    }
+
+    /// The empty hands that somebody with several hands does not need go out of the way of the others.
+    ///
+    /// The hands of different agents do not: that is for the plan.
+    fn make_room(&mut self, needed: &[HandId]) {
+        let agent = |hand: HandId| self.header.hands[hand.index()].agent;
+        let idle: Vec<HandId> = self
+            .stage
+            .hands()
+            .filter(|hand| !needed.contains(hand) && self.stage.held(*hand).is_none())
+            .filter(|hand| needed.iter().any(|other| agent(*other) == agent(*hand)))
+            .collect();
+        for hand in idle {
+            let (from, to) = (self.stage.hand(hand), self.homes[hand.index()]);
+            if (from.translation.vector - to.translation.vector).norm() > 0.01
+                && self.actors[hand.index()].idle()
+            {
+                let rise = Vector3::z() * 0.1;
+                let way = Way::new(&from, &to, rise, rise, SPEED, 0.0);
+                self.actors[hand.index()].add(vec![Act::Grip(false), Act::Go { way, about: None }]);
             }
         }
     }
@@ -336,15 +363,20 @@ impl Run {
             return 0.0;
         }
         let hang = held.map_or(0.0, |held| self.stage.thing(held).object.size.z);
-        let mut needed = 0.0_f64;
+        let reach = held.map_or(0.0, |held| self.stage.thing(held).object.size.x / 2.0);
+        // Steep enough at the end, as demonstrators do it.
+        let mut needed = if held.is_some() { 0.26 * along.norm().sqrt() } else { 0.0_f64 };
         for object in self.stage.objects() {
             let thing = self.stage.thing(object);
-            if Some(object) == held || thing.mount != Mount::Free || thing.mass > 1.0 {
+            let around = held.is_none() && thing.mass > 1.0;
+            if Some(object) == held || thing.mount != Mount::Free || around {
                 continue;
             }
             let place = self.stage.pose(object).translation.vector;
             let share = ((place.xy() - from.xy()).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-            if (from.xy() + along * share - place.xy()).norm() < 0.14 {
+            if (from.xy() + along * share - place.xy()).norm()
+                < 0.11 + thing.object.size.x / 2.0 + reach
+            {
                 let top = place.z + thing.object.size.z / 2.0;
                 needed = needed.max((top + hang + 0.04 - from.z.min(to.z)) / 0.75);
             }
@@ -392,9 +424,12 @@ impl Run {
             self.frames.push(frame);
         }
         self.odd = !self.odd;
+        let closed: Vec<bool> = self.stage.hands().map(|hand| self.stage.closed(hand)).collect();
+        for actor in &mut self.actors {
+            actor.step(&mut self.stage);
+        }
         for part in parts.iter_mut() {
-            let before = self.stage.closed(part.hand);
-            self.actors[part.hand.index()].step(&mut self.stage);
+            let before = closed[part.hand.index()];
             let (closed, held) = (self.stage.closed(part.hand), self.stage.held(part.hand));
             if closed && !before && held.is_none() {
                 let sentence = format!("The {} closes on nothing.", self.hand_name(part.hand));
@@ -417,7 +452,7 @@ impl Run {
                 part.holds = None;
             }
         }
-        if self.stage.clearance() < CLEARANCE {
+        if self.stage.clearance() < CLEARANCE && !self.forbidden {
             self.story.push("Two hands run into each other.".to_owned());
             self.forbidden = true;
         }

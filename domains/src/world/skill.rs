@@ -286,6 +286,7 @@ impl<'world> Planner<'world> {
         let (from, to) = (self.at.translation.vector, end.translation.vector);
         let along = to.xy() - from.xy();
         let hang = carried.map_or(0.0, |thing| self.stage.thing(thing).object.size.z);
+        let reach = carried.map_or(0.0, |thing| self.stage.thing(thing).object.size.x / 2.0);
         let low = from.z.min(to.z);
         // What is carried a long way comes down steeply enough not to push over what it is set on:
         // at a height z over its end the curve is off by d·z²/(3·rise²), which is to be 5 cm at 10 cm.
@@ -293,7 +294,9 @@ impl<'world> Planner<'world> {
             if carried.is_some() { 0.26 * along.norm().sqrt() } else { 0.0 };
         for object in self.stage.objects() {
             let thing = self.stage.thing(object);
-            if Some(object) == carried || thing.mount != Mount::Free || thing.object.kind == "chair" {
+            // An empty hand goes around a chair, and needs not rise over it.
+            let around = carried.is_none() && thing.object.kind == "chair";
+            if Some(object) == carried || thing.mount != Mount::Free || around {
                 continue;
             }
             let place = self.stage.pose(object).translation.vector;
@@ -304,7 +307,8 @@ impl<'world> Planner<'world> {
             };
             // The ends themselves stand where hands arrive and leave.
             let between = (0.15..0.85).contains(&share);
-            if between && (from.xy() + along * share - place.xy()).norm() < 0.14 {
+            if between && (from.xy() + along * share - place.xy()).norm()
+                    < 0.11 + thing.object.size.x / 2.0 + reach {
                 let top = place.z + thing.object.size.z / 2.0;
                 needed = needed.max((top + hang + 0.05 - low) / 0.75);
             }
