@@ -73,19 +73,11 @@ fn in_cubes(seed: u64, steps: &[&str], goal: usize) -> Outcome {
     execute(Scenario::Cubes, seed, &plan(steps), &cubes(), goal)
 }
 
-const TWO_TOWERS: [&str; 4] = [
-    "take red-cube",
-    "put red-cube green-cube",
-    "take blue-cube",
-    "put blue-cube yellow-cube",
-];
+const TWO_TOWERS: [&str; 4] =
+    ["take red-cube", "put red-cube green-cube", "take blue-cube", "put blue-cube yellow-cube"];
 
-const TOWER_OF_THREE: [&str; 4] = [
-    "take green-cube",
-    "put green-cube blue-cube",
-    "take red-cube",
-    "put red-cube green-cube",
-];
+const TOWER_OF_THREE: [&str; 4] =
+    ["take green-cube", "put green-cube blue-cube", "take red-cube", "put red-cube green-cube"];
 
 const TOWER_OF_FOUR: [&str; 6] = [
     "take blue-cube",
@@ -231,10 +223,8 @@ fn bottle() -> Vec<Routine> {
             * Isometry3::translation(0.0, -0.03, z)
     };
     let middle = Anchor::Middle(0);
-    let mut unscrew = vec![
-        point(middle, rim(0.0, 0.1), false, 2.0),
-        point(middle, rim(0.0, 0.004), true, 2.6),
-    ];
+    let mut unscrew =
+        vec![point(middle, rim(0.0, 0.1), false, 2.0), point(middle, rim(0.0, 0.004), true, 2.6)];
     for step in 1..=16 {
         let turn = f64::from(step) / 16.0 * 2.75;
         unscrew.push(point(middle, rim(turn, 0.004), true, 2.9 + 0.15 * f64::from(step)));
@@ -263,9 +253,8 @@ fn bottle() -> Vec<Routine> {
 fn a_bottle_opens_while_it_is_held_and_turns_with_its_lid_otherwise() {
     let goal = &Scenario::BottleClosed.goals()[0].facts;
     for seed in 0..4 {
-        let run = |lines: &[&str]| {
-            execute(Scenario::BottleClosed, seed, &plan(lines), &bottle(), goal)
-        };
+        let run =
+            |lines: &[&str]| execute(Scenario::BottleClosed, seed, &plan(lines), &bottle(), goal);
         let both = run(&["hold bottle + unscrew lid bottle table"]);
         assert!(both.reached, "seed {seed}: {:?}", both.story);
         let alone = run(&["unscrew lid bottle table"]);

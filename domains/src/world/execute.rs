@@ -66,7 +66,19 @@ pub fn execute(
     let actors = stage.hands().map(|hand| Actor::new(&stage, hand)).collect();
     let homes = stage.hands().map(|hand| stage.hand(hand)).collect();
     let chance = Chance::new("execution", &[seed]);
-    let mut run = Run { stage, header, actors, homes, tracker, person, chance, frames: Vec::new(), story: Vec::new(), forbidden: false, odd: false };
+    let mut run = Run {
+        stage,
+        header,
+        actors,
+        homes,
+        tracker,
+        person,
+        chance,
+        frames: Vec::new(),
+        story: Vec::new(),
+        forbidden: false,
+        odd: false,
+    };
     for steps in plan {
         if run.forbidden || !run.joint_step(steps, routines) {
             run.forbidden = true;
@@ -79,7 +91,11 @@ pub fn execute(
     let facts = facts::facts(&run.stage, &run.header);
     let reached = !run.forbidden && goal.iter().all(|fact| facts.contains(fact));
     for fact in goal.iter().filter(|fact| !facts.contains(fact)) {
-        run.story.push(format!("In the end ({} {}) does not hold.", fact.predicate, fact.arguments.join(" ")));
+        run.story.push(format!(
+            "In the end ({} {}) does not hold.",
+            fact.predicate,
+            fact.arguments.join(" ")
+        ));
     }
     Outcome { frames: run.frames, facts, reached, story: run.story }
 }
@@ -123,7 +139,8 @@ impl Run {
         let mut parts = Vec::new();
         let mut taken = Vec::new();
         for step in steps {
-            let found = routines.iter().find(|routine| routine.action.eq_ignore_ascii_case(&step.name));
+            let found =
+                routines.iter().find(|routine| routine.action.eq_ignore_ascii_case(&step.name));
             let Some(routine) = found else {
                 self.story.push(format!("There are no way points for {}.", step.name));
                 return false;
@@ -142,11 +159,14 @@ impl Run {
             }
             let poses = arguments
                 .iter()
-                .map(|object| object.map_or_else(Isometry3::identity, |object| self.stage.pose(object)))
+                .map(|object| {
+                    object.map_or_else(Isometry3::identity, |object| self.stage.pose(object))
+                })
                 .collect::<Vec<_>>();
             let places: Vec<_> = hands.iter().map(|hand| self.stage.hand(*hand)).collect();
             for (role, &hand) in hands.iter().enumerate() {
-                let points = routine.points.iter().filter(|point| point.hand as usize == role).collect();
+                let points =
+                    routine.points.iter().filter(|point| point.hand as usize == role).collect();
                 parts.push(Part {
                     hand,
                     step,
@@ -217,7 +237,8 @@ impl Run {
             {
                 let rise = Vector3::z() * 0.1;
                 let way = Way::new(&from, &to, rise, rise, SPEED, 0.0);
-                self.actors[hand.index()].add(vec![Act::Grip(false), Act::Go { way, about: None }]);
+                self.actors[hand.index()]
+                    .add(vec![Act::Grip(false), Act::Go { way: Box::new(way), about: None }]);
             }
         }
     }
@@ -233,7 +254,8 @@ impl Run {
         taken: &[HandId],
     ) -> Option<HandId> {
         let by_name = |name: &str| {
-            let agent = self.header.agents.iter().position(|agent| agent.eq_ignore_ascii_case(name));
+            let agent =
+                self.header.agents.iter().position(|agent| agent.eq_ignore_ascii_case(name));
             self.header
                 .hands
                 .iter()
@@ -261,22 +283,19 @@ impl Run {
                     })
                     .map(|object| self.stage.pose(object).translation.vector)
                     .collect();
-                self.stage
-                    .hands()
-                    .filter(|hand| !taken.contains(hand))
-                    .min_by(|first, second| {
-                        let cost = |hand: &HandId| {
-                            let held = self.stage.held(*hand);
-                            let fits = held.is_some_and(|held| carried.contains(&held));
-                            // Somebody who needs a free hand takes no full one, and who puts something down takes the hand that has it.
-                            let wrong = !fits && (held.is_some() || !carried.is_empty());
-                            let out = aims.iter().any(|aim| !self.reaches(*hand, *aim));
-                            let place = self.stage.hand(*hand).translation.vector;
-                            let far = aims.first().map_or(0.0, |aim| (aim - place).norm());
-                            (f64::from(u8::from(wrong)) + f64::from(u8::from(out))) * 100.0 + far
-                        };
-                        cost(first).total_cmp(&cost(second))
-                    })
+                self.stage.hands().filter(|hand| !taken.contains(hand)).min_by(|first, second| {
+                    let cost = |hand: &HandId| {
+                        let held = self.stage.held(*hand);
+                        let fits = held.is_some_and(|held| carried.contains(&held));
+                        // Somebody who needs a free hand takes no full one, and who puts something down takes the hand that has it.
+                        let wrong = !fits && (held.is_some() || !carried.is_empty());
+                        let out = aims.iter().any(|aim| !self.reaches(*hand, *aim));
+                        let place = self.stage.hand(*hand).translation.vector;
+                        let far = aims.first().map_or(0.0, |aim| (aim - place).norm());
+                        (f64::from(u8::from(wrong)) + f64::from(u8::from(out))) * 100.0 + far
+                    };
+                    cost(first).total_cmp(&cost(second))
+                })
             }
         }
     }
@@ -293,10 +312,13 @@ impl Run {
         part.begun += 1;
         let anchor = match point.anchor {
             Anchor::World => Isometry3::identity(),
-            Anchor::Hand(role) => part.hands.get(role as usize).copied().unwrap_or_else(Isometry3::identity),
+            Anchor::Hand(role) => {
+                part.hands.get(role as usize).copied().unwrap_or_else(Isometry3::identity)
+            }
             Anchor::Middle(index) | Anchor::Top(index) | Anchor::Free(index) => {
                 let Some(object) = part.arguments.get(index as usize).copied().flatten() else {
-                    self.story.push(format!("{} is about something that is not here.", told(part.step)));
+                    self.story
+                        .push(format!("{} is about something that is not here.", told(part.step)));
                     return false;
                 };
                 let middle = part.poses[index as usize];
@@ -326,7 +348,7 @@ impl Run {
                 let (hand, object) = (self.hand_name(part.hand), self.name(object));
                 self.story.push(format!("The {hand} shall carry {object} and does not hold it."));
                 // It goes where it would have brought it, above that.
-                aim = aim * Translation3::new(0.0, 0.0, 2.0 * height);
+                aim *= Translation3::new(0.0, 0.0, 2.0 * height);
             }
         }
         let hand = self.stage.hand(part.hand);
@@ -342,7 +364,7 @@ impl Run {
         let bend = Vector3::z() * self.rise(part.hand, &hand, &aim);
         let way = Way::new(&hand, &aim, bend, bend, SPEED, point.time - before);
         let actor = &mut self.actors[part.hand.index()];
-        actor.add(vec![Act::Go { way, about: None }]);
+        actor.add(vec![Act::Go { way: Box::new(way), about: None }]);
         if point.grip != self.stage.closed(part.hand) {
             actor.add(vec![Act::Rest(REST), Act::Grip(point.grip), Act::Rest(REST)]);
         }
@@ -373,7 +395,8 @@ impl Run {
                 continue;
             }
             let place = self.stage.pose(object).translation.vector;
-            let share = ((place.xy() - from.xy()).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+            let share =
+                ((place.xy() - from.xy()).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
             if (from.xy() + along * share - place.xy()).norm()
                 < 0.11 + thing.object.size.x / 2.0 + reach
             {
@@ -471,7 +494,11 @@ impl Run {
             let loose = self.stage.thing(below).mount == Mount::Free
                 && self.stage.thing(above).mount == Mount::Free;
             if loose && towards.z.abs() > 0.7 && edge(above) > edge(below) + 0.001 {
-                self.story.push(format!("The {} lies on the smaller {}.", self.name(above), self.name(below)));
+                self.story.push(format!(
+                    "The {} lies on the smaller {}.",
+                    self.name(above),
+                    self.name(below)
+                ));
                 self.forbidden = true;
                 return;
             }

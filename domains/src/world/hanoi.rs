@@ -16,7 +16,8 @@ use nalgebra::Vector3;
 
 const TOP: f64 = 0.75;
 /// The edges of the cubes, in metres.
-const EDGES: [(&str, f64); 3] = [("large-cube", 0.07), ("middle-cube", 0.055), ("small-cube", 0.04)];
+const EDGES: [(&str, f64); 3] =
+    [("large-cube", 0.07), ("middle-cube", 0.055), ("small-cube", 0.04)];
 /// The spots from left to right, and where they are along x.
 const SPOTS: [(&str, f64); 3] = [("left-spot", -0.38), ("tray", 0.0), ("right-spot", 0.38)];
 /// The place of the first cube among the things: after the table and the spots.
@@ -101,12 +102,11 @@ pub(crate) fn script(_person: &Person, chance: &mut Chance, stage: &Stage, cubes
         let hand = HandId(u32::from(from.min(to) == 1));
         let thing = ObjectId(FIRST + cube);
         piles[from].pop();
-        let put = match piles[to].last() {
-            Some(below) => Skill::Put { thing, on: ObjectId(FIRST + below), place: None },
-            None => {
-                let off = Vector3::new(SPOTS[to].1, 0.0, 0.0) + chance.normals() * 0.003;
-                Skill::Put { thing, on: table, place: Some(Vector3::new(off.x, off.y, 0.0)) }
-            }
+        let put = if let Some(below) = piles[to].last() {
+            Skill::Put { thing, on: ObjectId(FIRST + below), place: None }
+        } else {
+            let off = Vector3::new(SPOTS[to].1, 0.0, 0.0) + chance.normals() * 0.003;
+            Skill::Put { thing, on: table, place: Some(Vector3::new(off.x, off.y, 0.0)) }
         };
         piles[to].push(cube);
         let home = Skill::Go(stage.hand(hand));

@@ -19,7 +19,7 @@ const SAMPLES: usize = 48;
 #[derive(Debug, Clone)]
 enum Course {
     /// A cubic Bézier curve with the length from its start at each sample.
-    Bezier { points: [Vector3<f64>; 4], lengths: [f64; SAMPLES + 1] },
+    Bezier { points: [Vector3<f64>; 4], lengths: Vec<f64> },
     /// A turn about an axis.
     Arc { centre: Vector3<f64>, axis: Unit<Vector3<f64>>, angle: f64, start: Isometry3<f64> },
 }
@@ -53,7 +53,7 @@ impl Way {
             end.translation.vector + arrive,
             end.translation.vector,
         ];
-        let mut lengths = [0.0; SAMPLES + 1];
+        let mut lengths = vec![0.0; SAMPLES + 1];
         let mut before = points[0];
         for sample in 1..=SAMPLES {
             let here = bezier(&points, sample as f64 / SAMPLES as f64);
@@ -61,12 +61,9 @@ impl Way {
             before = here;
         }
         let turn = start.rotation.angle_to(&end.rotation);
-        Self {
-            course: Course::Bezier { points, lengths },
-            from: start.rotation,
-            to: end.rotation,
-            duration: duration(lengths[SAMPLES], turn, speed).max(least),
-        }
+        let duration = duration(lengths[SAMPLES], turn, speed).max(least);
+        let course = Course::Bezier { points, lengths };
+        Self { course, from: start.rotation, to: end.rotation, duration }
     }
 
     /// A turn about an axis through a point, by an angle in radians.
@@ -130,7 +127,7 @@ fn bezier(points: &[Vector3<f64>; 4], at: f64) -> Vector3<f64> {
 }
 
 /// The parameter at which a share of the length is behind.
-fn parameter(lengths: &[f64; SAMPLES + 1], share: f64) -> f64 {
+fn parameter(lengths: &[f64], share: f64) -> f64 {
     let wanted = share * lengths[SAMPLES];
     let after = lengths.partition_point(|&length| length < wanted).clamp(1, SAMPLES);
     let step = lengths[after] - lengths[after - 1];
@@ -151,14 +148,15 @@ mod tests {
             let up = Vector3::z() * 0.2;
             let way = Way::new(&start, &end, up, up, asked, 0.0);
             assert!((way.at(0.0).translation.vector - start.translation.vector).norm() < 1e-9);
-            assert!((way.at(way.duration).translation.vector - end.translation.vector).norm() < 1e-9);
+            assert!(
+                (way.at(way.duration).translation.vector - end.translation.vector).norm() < 1e-9
+            );
             assert!(way.at(way.duration).rotation.angle_to(&end.rotation) < 1e-6);
             let step = 1.0 / 180.0;
             let mut before = (0.0_f64, way.at(0.0));
             for tick in 1..=(way.duration / step) as u32 {
                 let here = way.at(f64::from(tick) * step);
-                let speed =
-                    (here.translation.vector - before.1.translation.vector).norm() / step;
+                let speed = (here.translation.vector - before.1.translation.vector).norm() / step;
                 assert!(speed < asked.min(GREATEST_SPEED) * 1.02, "{speed} of {asked}");
                 // Along the curve; what bends the way comes on top.
                 assert!((speed - before.0).abs() / step < GREATEST_ACCELERATION * 1.3);
@@ -169,8 +167,7 @@ mod tests {
 
     #[test]
     fn a_turn_keeps_its_distance() {
-        let way =
-            Way::around(&at(0.04, 0.0, 0.2), Vector3::zeros(), Vector3::z_axis(), 2.0, 0.2);
+        let way = Way::around(&at(0.04, 0.0, 0.2), Vector3::zeros(), Vector3::z_axis(), 2.0, 0.2);
         for share in [0.0, 0.3, 0.7, 1.0] {
             let here = way.at(share * way.duration).translation.vector;
             assert!((here.xy().norm() - 0.04).abs() < 1e-9);

@@ -52,9 +52,8 @@ pub fn draw(header: &Header, frames: &[Frame]) -> String {
             let colour = if object.fixed { "#999" } else { COLOURS[number % COLOURS.len()] };
             for (frame, dash) in [(first, " stroke-dasharray=\"4 3\""), (last, "")] {
                 let Some(sample) = &frame.objects[number] else { continue };
-                let outline = hull(
-                    corners(&sample.pose, object.size).map(|corner| (corner.x, corner[axis])),
-                );
+                let outline =
+                    hull(corners(&sample.pose, object.size).map(|corner| (corner.x, corner[axis])));
                 let points: Vec<String> = outline
                     .into_iter()
                     .map(|(x, y)| {
@@ -73,7 +72,11 @@ pub fn draw(header: &Header, frames: &[Frame]) -> String {
                     let (x, y) = place.split_once(',').unwrap_or_default();
                     // Names of things that lie on each other stand below each other.
                     let lower = 12 * (number % 3);
-                    let _ = writeln!(text, "<text x=\"{x}\" y=\"{y}\" dy=\"{lower}\" fill=\"{colour}\">{}</text>", object.name);
+                    let _ = writeln!(
+                        text,
+                        "<text x=\"{x}\" y=\"{y}\" dy=\"{lower}\" fill=\"{colour}\">{}</text>",
+                        object.name
+                    );
                 }
             }
         }

@@ -42,7 +42,7 @@ pub(crate) enum Skill {
 #[derive(Debug, Clone)]
 pub(crate) enum Act {
     /// Go a way; `about` is what the hand approaches or works on.
-    Go { way: Way, about: Option<ObjectId> },
+    Go { way: Box<Way>, about: Option<ObjectId> },
     /// Close or open the hand.
     Grip(bool),
     /// Rest, in seconds.
@@ -91,7 +91,7 @@ impl<'world> Planner<'world> {
                 let centre = self.stage.pose(lid).translation.vector;
                 let way = Way::around(&self.at, centre, Vector3::z_axis(), angle, 0.12);
                 self.at = way.at(way.duration);
-                self.acts.push(Act::Go { way, about: None });
+                self.acts.push(Act::Go { way: Box::new(way), about: None });
                 self.acts.push(Act::Rest(self.person.delay));
             }
             Skill::Seat { lid, bottle } => {
@@ -144,7 +144,7 @@ impl<'world> Planner<'world> {
         }
         let way = Way::new(&self.at, &end, leave, arrive, self.person.speed * pace, 0.15);
         self.at = end;
-        self.acts.push(Act::Go { way, about });
+        self.acts.push(Act::Go { way: Box::new(way), about });
     }
 
     /// Where to take a thing, given how it lies and where the hand comes from.
@@ -247,10 +247,7 @@ impl<'world> Planner<'world> {
         // As near to the front as it fits, since the rear is under the counter.
         let front = -half.y + size.y / 2.0 + 0.035;
         let inside = pose * space::at(0.0, front, size.z / 2.0 + 0.012 + 0.006 - half.z);
-        let to = Isometry3::from_parts(
-            inside.translation,
-            upright(&self.stage.pose(thing)),
-        );
+        let to = Isometry3::from_parts(inside.translation, upright(&self.stage.pose(thing)));
         self.carry(thing, to, Some(into));
         self.leave();
     }
@@ -290,8 +287,7 @@ impl<'world> Planner<'world> {
         let low = from.z.min(to.z);
         // What is carried a long way comes down steeply enough not to push over what it is set on:
         // at a height z over its end the curve is off by d·z²/(3·rise²), which is to be 5 cm at 10 cm.
-        let mut needed: f64 =
-            if carried.is_some() { 0.26 * along.norm().sqrt() } else { 0.0 };
+        let mut needed: f64 = if carried.is_some() { 0.26 * along.norm().sqrt() } else { 0.0 };
         for object in self.stage.objects() {
             let thing = self.stage.thing(object);
             // An empty hand goes around a chair, and needs not rise over it.
@@ -307,8 +303,10 @@ impl<'world> Planner<'world> {
             };
             // The ends themselves stand where hands arrive and leave.
             let between = (0.15..0.85).contains(&share);
-            if between && (from.xy() + along * share - place.xy()).norm()
-                    < 0.11 + thing.object.size.x / 2.0 + reach {
+            if between
+                && (from.xy() + along * share - place.xy()).norm()
+                    < 0.11 + thing.object.size.x / 2.0 + reach
+            {
                 let top = place.z + thing.object.size.z / 2.0;
                 needed = needed.max((top + hang + 0.05 - low) / 0.75);
             }
@@ -330,9 +328,8 @@ pub(crate) fn done(skill: &Skill, stage: &Stage, hand: HandId) -> bool {
         Skill::Put { thing, on, place } => {
             let half = |object: ObjectId| stage.thing(object).object.size.z / 2.0;
             let off = place.unwrap_or_else(Vector3::zeros);
-            let aim = stage.pose(on).translation.vector
-                + off
-                + Vector3::z() * (half(thing) + half(on));
+            let aim =
+                stage.pose(on).translation.vector + off + Vector3::z() * (half(thing) + half(on));
             // Off by more than a third it is no longer on it.
             let slack = stage.thing(thing).object.size.x * 0.35;
             stage.held(hand) != Some(thing) && near(thing, aim, slack)

@@ -249,14 +249,11 @@ impl Stage {
     pub(crate) fn joints(&self, object: ObjectId) -> Vec<f64> {
         let thing = self.thing(object);
         let Some(joint) = thing.object.joints.first() else { return Vec::new() };
-        match (&self.screw, thing.mount) {
-            (Some(screw), Mount::Free) => vec![screw.value()],
-            _ => {
-                let moved =
-                    self.pose(object).translation.vector - thing.pose.translation.vector;
-                vec![moved.dot(&(thing.pose.rotation * joint.axis))]
-            }
+        if let (Some(screw), Mount::Free) = (&self.screw, thing.mount) {
+            return vec![screw.value()];
         }
+        let moved = self.pose(object).translation.vector - thing.pose.translation.vector;
+        vec![moved.dot(&(thing.pose.rotation * joint.axis))]
     }
 
     /// How far a thing is open, from 0 (its lower limit) to 1; none without a joint.
@@ -336,21 +333,14 @@ impl Stage {
 fn collider(part: &Part, friction: f64) -> ColliderBuilder {
     let (shape, place) = match part.form {
         Form::Box(size) => (
-            ColliderBuilder::cuboid(
-                size.x as f32 / 2.0,
-                size.y as f32 / 2.0,
-                size.z as f32 / 2.0,
-            ),
+            ColliderBuilder::cuboid(size.x as f32 / 2.0, size.y as f32 / 2.0, size.z as f32 / 2.0),
             part.place,
         ),
         // The engine's cylinders stand along y.
         Form::Cylinder { radius, height } => (
             ColliderBuilder::cylinder(height as f32 / 2.0, radius as f32),
             part.place
-                * UnitQuaternion::from_axis_angle(
-                    &Vector3::x_axis(),
-                    std::f64::consts::FRAC_PI_2,
-                ),
+                * UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::FRAC_PI_2),
         ),
     };
     shape.position(space::pose(&place)).friction(friction as f32).restitution(0.0)
