@@ -23,11 +23,11 @@ pub struct Routine {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Doer {
-    /// The hand that this argument names, or the hand of the agent that it names.
+    /// The hand that this argument names, or the one of the agent's that it names, chosen as for [`Doer::Any`].
     Argument(u32),
     /// The hand of this name.
     Named(String),
-    /// Any hand: the one that holds what is carried or let go, else a free one that is nearest and reaches.
+    /// Any hand: one that holds an argument, else a free one that reaches, the nearest first.
     Any,
 }
 
@@ -72,12 +72,13 @@ fn write_pose<S: Serializer>(pose: &Isometry3<f64>, serializer: S) -> Result<S::
 }
 
 fn read_pose<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Isometry3<f64>, D::Error> {
-    let [x, y, z, i, j, k, w] = <[f64; 7]>::deserialize(deserializer)?;
-    let turn = Quaternion::new(w, i, j, k);
+    let numbers = <[f64; 7]>::deserialize(deserializer)?;
+    let turn = Quaternion::new(numbers[6], numbers[3], numbers[4], numbers[5]);
     if !(0.9..1.1).contains(&turn.norm()) {
         return Err(D::Error::custom("the last four numbers of a pose are no unit quaternion"));
     }
-    Ok(Isometry3::from_parts(Translation3::new(x, y, z), UnitQuaternion::from_quaternion(turn)))
+    let place = Translation3::new(numbers[0], numbers[1], numbers[2]);
+    Ok(Isometry3::from_parts(place, UnitQuaternion::from_quaternion(turn)))
 }
 
 #[cfg(test)]

@@ -153,9 +153,6 @@ impl Role {
             self.begun = true;
             let acts = Planner::new(stage, person, chance, self.hand).acts(&skill);
             self.actor.add(acts);
-            if self.actor.idle() {
-                continue;
-            }
         }
     }
 }

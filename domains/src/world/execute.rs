@@ -64,11 +64,13 @@ pub fn execute(
     let person = Person::ideal();
     let tracker = Tracker::new(&stage, &person, seed);
     let actors = stage.hands().map(|hand| Actor::new(&stage, hand)).collect();
+    let homes = stage.hands().map(|hand| stage.hand(hand)).collect();
     let chance = Chance::new("execution", &[seed]);
     let mut run = Run {
         stage,
         header,
         actors,
+        homes,
         tracker,
         person,
         chance,
@@ -103,6 +105,8 @@ struct Run {
     stage: Stage,
     header: Header,
     actors: Vec<Actor>,
+    /// Where hands rest.
+    homes: Vec<Isometry3<f64>>,
     tracker: Tracker,
     person: Person,
     chance: Chance,
@@ -175,6 +179,7 @@ impl Run {
                 });
             }
         }
+        self.make_room(&taken);
         let mut clock = 0.0;
         let begin = self.frames.len();
         loop {
@@ -214,6 +219,30 @@ impl Run {
         }
     }
 
+    /// The empty hands that somebody with several hands does not need go out of the way of the others.
+    ///
+    /// The hands of different agents do not: that is for the plan.
+    fn make_room(&mut self, needed: &[HandId]) {
+        let agent = |hand: HandId| self.header.hands[hand.index()].agent;
+        let idle: Vec<HandId> = self
+            .stage
+            .hands()
+            .filter(|hand| !needed.contains(hand) && self.stage.held(*hand).is_none())
+            .filter(|hand| needed.iter().any(|other| agent(*other) == agent(*hand)))
+            .collect();
+        for hand in idle {
+            let (from, to) = (self.stage.hand(hand), self.homes[hand.index()]);
+            if (from.translation.vector - to.translation.vector).norm() > 0.01
+                && self.actors[hand.index()].idle()
+            {
+                let rise = Vector3::z() * 0.1;
+                let way = Way::new(&from, &to, rise, rise, SPEED, 0.0);
+                self.actors[hand.index()]
+                    .add(vec![Act::Grip(false), Act::Go { way: Box::new(way), about: None }]);
+            }
+        }
+    }
+
     /// Which hand does a part.
     fn choose(
         &self,
@@ -224,51 +253,47 @@ impl Run {
         arguments: &[Option<ObjectId>],
         taken: &[HandId],
     ) -> Option<HandId> {
-        let by_name = |name: &str| {
-            let agent =
-                self.header.agents.iter().position(|agent| agent.eq_ignore_ascii_case(name));
-            self.header
-                .hands
-                .iter()
-                .position(|hand| hand.name.eq_ignore_ascii_case(name))
-                .or_else(|| {
-                    let agent = agent?;
-                    self.header.hands.iter().position(|hand| hand.agent as usize == agent)
-                })
-                .map(|at| HandId(at as u32))
+        let name = match doer {
+            Doer::Named(name) => Some(name),
+            Doer::Argument(argument) => Some(step.arguments.get(*argument as usize)?),
+            Doer::Any => None,
         };
-        match doer {
-            Doer::Named(name) => by_name(name),
-            Doer::Argument(argument) => by_name(step.arguments.get(*argument as usize)?),
-            Doer::Any => {
-                let mine = || routine.points.iter().filter(|point| point.hand == role);
-                let object = |index: u32| arguments.get(index as usize).copied().flatten();
-                let carried: Vec<ObjectId> =
-                    mine().filter_map(|point| point.carried).filter_map(object).collect();
-                let aims: Vec<Vector3<f64>> = mine()
-                    .filter_map(|point| match point.anchor {
-                        Anchor::Middle(index) | Anchor::Top(index) | Anchor::Free(index) => {
-                            object(index)
-                        }
-                        Anchor::World | Anchor::Hand(_) => None,
-                    })
-                    .map(|object| self.stage.pose(object).translation.vector)
-                    .collect();
-                self.stage.hands().filter(|hand| !taken.contains(hand)).min_by(|first, second| {
-                    let cost = |hand: &HandId| {
-                        let held = self.stage.held(*hand);
-                        let fits = held.is_some_and(|held| carried.contains(&held));
-                        // Somebody who needs a free hand takes no full one, and who puts something down takes the hand that has it.
-                        let wrong = !fits && (held.is_some() || !carried.is_empty());
-                        let out = aims.iter().any(|aim| !self.reaches(*hand, *aim));
-                        let place = self.stage.hand(*hand).translation.vector;
-                        let far = aims.first().map_or(0.0, |aim| (aim - place).norm());
-                        (f64::from(u8::from(wrong)) + f64::from(u8::from(out))) * 100.0 + far
-                    };
-                    cost(first).total_cmp(&cost(second))
-                })
-            }
-        }
+        // A name is that of a hand, or of an agent that may use any of its hands.
+        let may = |hand: HandId| {
+            let entry = &self.header.hands[hand.index()];
+            let agent = &self.header.agents[entry.agent as usize];
+            name.is_none_or(|name| {
+                entry.name.eq_ignore_ascii_case(name) || agent.eq_ignore_ascii_case(name)
+            })
+        };
+        let mine = || routine.points.iter().filter(|point| point.hand == role);
+        let carries = mine().any(|point| point.carried.is_some());
+        let aims: Vec<Vector3<f64>> = mine()
+            .filter_map(|point| match point.anchor {
+                Anchor::Middle(index) | Anchor::Top(index) | Anchor::Free(index) => {
+                    arguments.get(index as usize).copied().flatten()
+                }
+                Anchor::World | Anchor::Hand(_) => None,
+            })
+            .map(|object| self.stage.pose(object).translation.vector)
+            .collect();
+        let cost = |hand: HandId| {
+            // Who puts something down takes the hand that has it, and who takes something a free one.
+            let unfit = match self.stage.held(hand) {
+                Some(held) if arguments.contains(&Some(held)) => 0.0,
+                None if !carries => 0.0,
+                None => 1.0,
+                Some(_) => 2.0,
+            };
+            let out = aims.iter().any(|aim| !self.reaches(hand, *aim));
+            let place = self.stage.hand(hand).translation.vector;
+            let far = aims.first().map_or(0.0, |aim| (aim - place).norm());
+            (unfit + f64::from(u8::from(out))) * 100.0 + far
+        };
+        self.stage
+            .hands()
+            .filter(|hand| !taken.contains(hand) && may(*hand))
+            .min_by(|first, second| cost(*first).total_cmp(&cost(*second)))
     }
 
     fn reaches(&self, hand: HandId, place: Vector3<f64>) -> bool {
@@ -319,7 +344,7 @@ impl Run {
                 let (hand, object) = (self.hand_name(part.hand), self.name(object));
                 self.story.push(format!("The {hand} shall carry {object} and does not hold it."));
                 // It goes where it would have brought it, above that.
-                aim = aim * Translation3::new(0.0, 0.0, 2.0 * height);
+                aim *= Translation3::new(0.0, 0.0, 2.0 * height);
             }
         }
         let hand = self.stage.hand(part.hand);
@@ -335,7 +360,7 @@ impl Run {
         let bend = Vector3::z() * self.rise(part.hand, &hand, &aim);
         let way = Way::new(&hand, &aim, bend, bend, SPEED, point.time - before);
         let actor = &mut self.actors[part.hand.index()];
-        actor.add(vec![Act::Go { way, about: None }]);
+        actor.add(vec![Act::Go { way: Box::new(way), about: None }]);
         if point.grip != self.stage.closed(part.hand) {
             actor.add(vec![Act::Rest(REST), Act::Grip(point.grip), Act::Rest(REST)]);
         }
@@ -356,16 +381,21 @@ impl Run {
             return 0.0;
         }
         let hang = held.map_or(0.0, |held| self.stage.thing(held).object.size.z);
-        let mut needed = 0.0_f64;
+        let reach = held.map_or(0.0, |held| self.stage.thing(held).object.size.x / 2.0);
+        // Steep enough at the end, as demonstrators do it.
+        let mut needed = if held.is_some() { 0.26 * along.norm().sqrt() } else { 0.0_f64 };
         for object in self.stage.objects() {
             let thing = self.stage.thing(object);
-            if Some(object) == held || thing.mount != Mount::Free || thing.mass > 1.0 {
+            let around = held.is_none() && thing.mass > 1.0;
+            if Some(object) == held || thing.mount != Mount::Free || around {
                 continue;
             }
             let place = self.stage.pose(object).translation.vector;
             let share =
                 ((place.xy() - from.xy()).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-            if (from.xy() + along * share - place.xy()).norm() < 0.14 {
+            if (from.xy() + along * share - place.xy()).norm()
+                < 0.11 + thing.object.size.x / 2.0 + reach
+            {
                 let top = place.z + thing.object.size.z / 2.0;
                 needed = needed.max((top + hang + 0.04 - from.z.min(to.z)) / 0.75);
             }
@@ -413,9 +443,12 @@ impl Run {
             self.frames.push(frame);
         }
         self.odd = !self.odd;
+        let closed: Vec<bool> = self.stage.hands().map(|hand| self.stage.closed(hand)).collect();
+        for actor in &mut self.actors {
+            actor.step(&mut self.stage);
+        }
         for part in parts.iter_mut() {
-            let before = self.stage.closed(part.hand);
-            self.actors[part.hand.index()].step(&mut self.stage);
+            let before = closed[part.hand.index()];
             let (closed, held) = (self.stage.closed(part.hand), self.stage.held(part.hand));
             if closed && !before && held.is_none() {
                 let sentence = format!("The {} closes on nothing.", self.hand_name(part.hand));
@@ -438,7 +471,7 @@ impl Run {
                 part.holds = None;
             }
         }
-        if self.stage.clearance() < CLEARANCE {
+        if self.stage.clearance() < CLEARANCE && !self.forbidden {
             self.story.push("Two hands run into each other.".to_owned());
             self.forbidden = true;
         }

@@ -70,9 +70,11 @@ pub fn draw(header: &Header, frames: &[Frame]) -> String {
                 if dash.is_empty() {
                     let place = at(sample.pose.translation.vector);
                     let (x, y) = place.split_once(',').unwrap_or_default();
+                    // Names of things that lie on each other stand below each other.
+                    let lower = 12 * (number % 3);
                     let _ = writeln!(
                         text,
-                        "<text x=\"{x}\" y=\"{y}\" fill=\"{colour}\">{}</text>",
+                        "<text x=\"{x}\" y=\"{y}\" dy=\"{lower}\" fill=\"{colour}\">{}</text>",
                         object.name
                     );
                 }

@@ -154,7 +154,12 @@ impl Stage {
         let relative = self.palms[hand.index()].pose.inverse() * self.pose(object);
         let slides = self.is_slider(object);
         // Springs in terms of acceleration: frequency² and twice the frequency are critically damped.
-        let (straight, round) = if slides { (30.0_f32, 0.0) } else { (80.0, 250.0) };
+        // Arms give way to what is heavy, so that a small slant of the hand does not press it into the floor.
+        let (straight, round) = match (slides, thing.mass > 1.0) {
+            (true, _) => (30.0_f32, 0.0_f32),
+            (false, true) => (30.0, 12.0),
+            (false, false) => (80.0, 250.0),
+        };
         let mut joint = GenericJointBuilder::new(JointAxesMask::empty())
             .contacts_enabled(true)
             .local_frame1(space::pose(&relative))
@@ -249,13 +254,11 @@ impl Stage {
     pub(crate) fn joints(&self, object: ObjectId) -> Vec<f64> {
         let thing = self.thing(object);
         let Some(joint) = thing.object.joints.first() else { return Vec::new() };
-        match (&self.screw, thing.mount) {
-            (Some(screw), Mount::Free) => vec![screw.value()],
-            _ => {
-                let moved = self.pose(object).translation.vector - thing.pose.translation.vector;
-                vec![moved.dot(&(thing.pose.rotation * joint.axis))]
-            }
+        if let (Some(screw), Mount::Free) = (&self.screw, thing.mount) {
+            return vec![screw.value()];
         }
+        let moved = self.pose(object).translation.vector - thing.pose.translation.vector;
+        vec![moved.dot(&(thing.pose.rotation * joint.axis))]
     }
 
     /// How far a thing is open, from 0 (its lower limit) to 1; none without a joint.
