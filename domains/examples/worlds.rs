@@ -16,7 +16,8 @@ fn main() {
             let mut failed = Vec::new();
             let clock = Instant::now();
             for number in first..first + persons {
-                let shown = demonstrate(scenario, task, &Person::draw(number, 1), u64::from(number));
+                let shown =
+                    demonstrate(scenario, task, &Person::draw(number, 1), u64::from(number));
                 if shown.reached {
                     reached += 1;
                 } else {

@@ -36,11 +36,8 @@ pub(crate) fn goals(open: bool) -> Vec<Goal> {
 
 pub(crate) fn layout(chance: &mut Chance, open: bool) -> Layout {
     let size = Vector3::new(1.2, 0.8, 0.05);
-    let place = Vector3::new(
-        chance.within((-0.12, 0.12)),
-        chance.within((-0.1, 0.1)),
-        TOP + HEIGHT / 2.0,
-    );
+    let place =
+        Vector3::new(chance.within((-0.12, 0.12)), chance.within((-0.1, 0.1)), TOP + HEIGHT / 2.0);
     let side = if chance.happens(0.5) { 1.0 } else { -1.0 };
     let beside = Vector3::new(
         place.x + side * chance.within((0.18, 0.28)),
@@ -54,14 +51,8 @@ pub(crate) fn layout(chance: &mut Chance, open: bool) -> Layout {
         Vector3::new(-RADIUS, 0.0, -0.02),
         -Vector3::y() * std::f64::consts::FRAC_PI_2,
     );
-    let bottle = thing::disc(
-        "bottle",
-        "bottle",
-        (RADIUS, HEIGHT),
-        0.45,
-        turned(place, turn),
-        around,
-    );
+    let bottle =
+        thing::disc("bottle", "bottle", (RADIUS, HEIGHT), 0.45, turned(place, turn), around);
     let lid_pose = turned(if open { beside } else { seat }, turn);
     let rim = at(0.0, -0.03, 0.004);
     let mut lid: Thing = thing::disc("lid", "lid", (RADIUS, LID), 0.03, lid_pose, rim);
@@ -100,10 +91,8 @@ pub(crate) fn script(person: &Person, chance: &mut Chance, stage: &Stage, open: 
         let off = stage.pose(object).translation.vector - stage.pose(table).translation.vector;
         Vector3::new(off.x, off.y, 0.0)
     };
-    let mut holds = vec![
-        Skill::Pause(chance.within((0.4, 0.8))),
-        Skill::Take { thing: bottle, lift },
-    ];
+    let mut holds =
+        vec![Skill::Pause(chance.within((0.4, 0.8))), Skill::Take { thing: bottle, lift }];
     let mut turns = vec![Skill::Pause(chance.within((0.4, 0.9)))];
     let away = if turner.0 == 1 { 1.0 } else { -1.0 };
     if open {
@@ -116,11 +105,8 @@ pub(crate) fn script(person: &Person, chance: &mut Chance, stage: &Stage, open: 
         turns.push(Skill::Await { hand: holder, skills: 2 });
         turns.push(Skill::Take { thing: lid, lift: 0.0 });
         turns.push(Skill::Turn { lid, angle: THREAD + 0.25 });
-        let off = Vector3::new(
-            away * chance.within((0.17, 0.26)),
-            chance.within((-0.08, 0.06)),
-            0.0,
-        );
+        let off =
+            Vector3::new(away * chance.within((0.17, 0.26)), chance.within((-0.08, 0.06)), 0.0);
         turns.push(Skill::Put { thing: lid, on: table, place: Some(place(bottle) + off) });
     }
     let turned = turns.len();

@@ -129,10 +129,8 @@ pub(crate) fn in_turn_from(
     chance: &mut Chance,
     back: bool,
 ) -> Vec<Vec<Skill>> {
-    let mut hands: Vec<Vec<Skill>> = stage
-        .hands()
-        .map(|_| vec![Skill::Pause(chance.within((0.4, 0.9)))])
-        .collect();
+    let mut hands: Vec<Vec<Skill>> =
+        stage.hands().map(|_| vec![Skill::Pause(chance.within((0.4, 0.9)))]).collect();
     let home = |hand: HandId| Skill::Go(stage.hand(hand));
     let mut before: Option<(HandId, usize)> = None;
     for (hand, skills) in turns {

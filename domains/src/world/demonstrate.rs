@@ -52,7 +52,8 @@ pub fn demonstrate(scenario: Scenario, task: Task, person: &Person, seed: u64) -
     let mut after = 0.0;
     while after < AFTER && (frames.len() as f64) < LONGEST * super::tracker::RATE {
         let time = frames.len() as f64 / super::tracker::RATE;
-        let teach: Vec<bool> = roles.iter().map(|role| header.agents.len() > 1 && role.busy()).collect();
+        let teach: Vec<bool> =
+            roles.iter().map(|role| header.agents.len() > 1 && role.busy()).collect();
         frames.push(tracker.see(&stage, person, &teach));
         let actors = roles.iter().map(|role| &role.actor);
         truths.push(truth(&stage, actors, &header, time));
@@ -70,7 +71,8 @@ pub fn demonstrate(scenario: Scenario, task: Task, person: &Person, seed: u64) -
         }
     }
     let held = facts::facts(&stage, &header);
-    let reached = roles.iter().all(|role| !role.failed) && goal.iter().all(|fact| held.contains(fact));
+    let reached =
+        roles.iter().all(|role| !role.failed) && goal.iter().all(|fact| held.contains(fact));
     Demonstration { header, frames, truths, goal, reached }
 }
 
@@ -132,9 +134,13 @@ impl Role {
                     return;
                 }
                 // What fell before it was where it should be is taken again first.
-                let taken = matches!(skill, Skill::Put { .. } | Skill::Insert { .. } | Skill::Turn { .. });
+                let taken =
+                    matches!(skill, Skill::Put { .. } | Skill::Insert { .. } | Skill::Turn { .. });
                 let before = self.at.checked_sub(1).map(|before| self.skills[before]);
-                if taken && stage.held(self.hand).is_none() && matches!(before, Some(Skill::Take { .. })) {
+                if taken
+                    && stage.held(self.hand).is_none()
+                    && matches!(before, Some(Skill::Take { .. }))
+                {
                     self.at -= 1;
                 }
                 continue;

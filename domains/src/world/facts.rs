@@ -72,7 +72,9 @@ pub(crate) fn facts(stage: &Stage, header: &Header) -> Vec<Fact> {
             None => say("hand-empty", vec![hand_name(hand)]),
         }
         if let Some(reach) = header.hands[hand.index()].reach {
-            for object in stage.objects().filter(|object| !stage.thing(*object).object.fixed || stage.thing(*object).object.region) {
+            for object in stage.objects().filter(|object| {
+                !stage.thing(*object).object.fixed || stage.thing(*object).object.region
+            }) {
                 let off = stage.pose(object).translation.vector - reach.centre;
                 if off.norm() <= reach.radius {
                     say("reachable", vec![name(object), hand_name(hand)]);
@@ -98,9 +100,7 @@ fn resting(stage: &Stage) -> Vec<(ObjectId, ObjectId)> {
                 None
             }
         })
-        .chain(
-            stage.objects().filter_map(|lid| stage.screwed(lid).map(|bottle| (lid, bottle))),
-        )
+        .chain(stage.objects().filter_map(|lid| stage.screwed(lid).map(|bottle| (lid, bottle))))
         .filter(|(above, _)| stage.thing(*above).mount == Mount::Free)
         .collect();
     pairs.sort();

@@ -16,7 +16,8 @@ use nalgebra::Vector3;
 
 const TOP: f64 = 0.75;
 /// The edges of the cubes, in metres.
-const EDGES: [(&str, f64); 3] = [("large-cube", 0.07), ("middle-cube", 0.055), ("small-cube", 0.04)];
+const EDGES: [(&str, f64); 3] =
+    [("large-cube", 0.07), ("middle-cube", 0.055), ("small-cube", 0.04)];
 /// The spots from left to right, and where they are along x.
 const SPOTS: [(&str, f64); 3] = [("left-spot", -0.38), ("tray", 0.0), ("right-spot", 0.38)];
 /// The place of the first cube among the things: after the table and the spots.

@@ -151,14 +151,15 @@ mod tests {
             let up = Vector3::z() * 0.2;
             let way = Way::new(&start, &end, up, up, asked, 0.0);
             assert!((way.at(0.0).translation.vector - start.translation.vector).norm() < 1e-9);
-            assert!((way.at(way.duration).translation.vector - end.translation.vector).norm() < 1e-9);
+            assert!(
+                (way.at(way.duration).translation.vector - end.translation.vector).norm() < 1e-9
+            );
             assert!(way.at(way.duration).rotation.angle_to(&end.rotation) < 1e-6);
             let step = 1.0 / 180.0;
             let mut before = (0.0_f64, way.at(0.0));
             for tick in 1..=(way.duration / step) as u32 {
                 let here = way.at(f64::from(tick) * step);
-                let speed =
-                    (here.translation.vector - before.1.translation.vector).norm() / step;
+                let speed = (here.translation.vector - before.1.translation.vector).norm() / step;
                 assert!(speed < asked.min(GREATEST_SPEED) * 1.02, "{speed} of {asked}");
                 // Along the curve; what bends the way comes on top.
                 assert!((speed - before.0).abs() / step < GREATEST_ACCELERATION * 1.3);
@@ -169,8 +170,7 @@ mod tests {
 
     #[test]
     fn a_turn_keeps_its_distance() {
-        let way =
-            Way::around(&at(0.04, 0.0, 0.2), Vector3::zeros(), Vector3::z_axis(), 2.0, 0.2);
+        let way = Way::around(&at(0.04, 0.0, 0.2), Vector3::zeros(), Vector3::z_axis(), 2.0, 0.2);
         for share in [0.0, 0.3, 0.7, 1.0] {
             let here = way.at(share * way.duration).translation.vector;
             assert!((here.xy().norm() - 0.04).abs() < 1e-9);

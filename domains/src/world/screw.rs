@@ -4,9 +4,7 @@ use super::space::{self, wrapped, yaw};
 use super::stage::Stage;
 use learner::log::ObjectId;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
-use rapier3d::prelude::{
-    GenericJointBuilder, ImpulseJointHandle, JointAxesMask, JointAxis,
-};
+use rapier3d::prelude::{GenericJointBuilder, ImpulseJointHandle, JointAxesMask, JointAxis};
 
 /// What the thread resists, in N·m: more than a bottle that stands unheld on a table, and less than one in a hand.
 const FRICTION: f32 = 0.15;
@@ -34,8 +32,7 @@ impl Screw {
     pub(super) fn new(stage: &mut Stage, lid: ObjectId, bottle: ObjectId) -> Self {
         let thing = stage.thing(lid);
         let (value, limits) = (thing.start, &thing.object.joints[0]);
-        let mut screw =
-            Self { lid, bottle, joint: None, value, angle: 0.0, closing: 0.0 };
+        let mut screw = Self { lid, bottle, joint: None, value, angle: 0.0, closing: 0.0 };
         screw.angle = screw.between(stage);
         if value < limits.upper - CATCH {
             screw.engage(stage);
@@ -67,7 +64,8 @@ impl Screw {
         let joint = &stage.thing(self.lid).object.joints[0];
         let middle = f64::midpoint(joint.lower, joint.upper);
         // The free axis of the joint is x of its frames, which therefore points up.
-        let upright = UnitQuaternion::from_axis_angle(&-Vector3::y_axis(), std::f64::consts::FRAC_PI_2);
+        let upright =
+            UnitQuaternion::from_axis_angle(&-Vector3::y_axis(), std::f64::consts::FRAC_PI_2);
         let frame = Isometry3::from_parts(self.seat(stage).into(), upright);
         let turn = UnitQuaternion::from_axis_angle(
             &Vector3::z_axis(),
@@ -76,14 +74,8 @@ impl Screw {
         let limits = [(joint.lower - middle) as f32, (joint.upper - middle) as f32];
         let thread = GenericJointBuilder::new(JointAxesMask::LOCKED_REVOLUTE_AXES)
             .contacts_enabled(false)
-            .local_frame1(space::pose(&Isometry3::from_parts(
-                frame.translation,
-                turn * upright,
-            )))
-            .local_frame2(space::pose(&Isometry3::from_parts(
-                Vector3::zeros().into(),
-                upright,
-            )))
+            .local_frame1(space::pose(&Isometry3::from_parts(frame.translation, turn * upright)))
+            .local_frame2(space::pose(&Isometry3::from_parts(Vector3::zeros().into(), upright)))
             .limits(JointAxis::AngX, limits)
             .motor_velocity(JointAxis::AngX, 0.0, 1000.0)
             .motor_max_force(JointAxis::AngX, FRICTION);

@@ -247,10 +247,7 @@ impl<'world> Planner<'world> {
         // As near to the front as it fits, since the rear is under the counter.
         let front = -half.y + size.y / 2.0 + 0.035;
         let inside = pose * space::at(0.0, front, size.z / 2.0 + 0.012 + 0.006 - half.z);
-        let to = Isometry3::from_parts(
-            inside.translation,
-            upright(&self.stage.pose(thing)),
-        );
+        let to = Isometry3::from_parts(inside.translation, upright(&self.stage.pose(thing)));
         self.carry(thing, to, Some(into));
         self.leave();
     }
@@ -290,7 +287,8 @@ impl<'world> Planner<'world> {
         let mut needed: f64 = 0.0;
         for object in self.stage.objects() {
             let thing = self.stage.thing(object);
-            if Some(object) == carried || thing.mount != Mount::Free || thing.object.kind == "chair" {
+            if Some(object) == carried || thing.mount != Mount::Free || thing.object.kind == "chair"
+            {
                 continue;
             }
             let place = self.stage.pose(object).translation.vector;
@@ -323,9 +321,8 @@ pub(crate) fn done(skill: &Skill, stage: &Stage, hand: HandId) -> bool {
         Skill::Put { thing, on, place } => {
             let half = |object: ObjectId| stage.thing(object).object.size.z / 2.0;
             let off = place.unwrap_or_else(Vector3::zeros);
-            let aim = stage.pose(on).translation.vector
-                + off
-                + Vector3::z() * (half(thing) + half(on));
+            let aim =
+                stage.pose(on).translation.vector + off + Vector3::z() * (half(thing) + half(on));
             // Off by more than a third it is no longer on it.
             let slack = stage.thing(thing).object.size.x * 0.35;
             stage.held(hand) != Some(thing) && near(thing, aim, slack)

@@ -252,8 +252,7 @@ impl Stage {
         match (&self.screw, thing.mount) {
             (Some(screw), Mount::Free) => vec![screw.value()],
             _ => {
-                let moved =
-                    self.pose(object).translation.vector - thing.pose.translation.vector;
+                let moved = self.pose(object).translation.vector - thing.pose.translation.vector;
                 vec![moved.dot(&(thing.pose.rotation * joint.axis))]
             }
         }
@@ -336,21 +335,14 @@ impl Stage {
 fn collider(part: &Part, friction: f64) -> ColliderBuilder {
     let (shape, place) = match part.form {
         Form::Box(size) => (
-            ColliderBuilder::cuboid(
-                size.x as f32 / 2.0,
-                size.y as f32 / 2.0,
-                size.z as f32 / 2.0,
-            ),
+            ColliderBuilder::cuboid(size.x as f32 / 2.0, size.y as f32 / 2.0, size.z as f32 / 2.0),
             part.place,
         ),
         // The engine's cylinders stand along y.
         Form::Cylinder { radius, height } => (
             ColliderBuilder::cylinder(height as f32 / 2.0, radius as f32),
             part.place
-                * UnitQuaternion::from_axis_angle(
-                    &Vector3::x_axis(),
-                    std::f64::consts::FRAC_PI_2,
-                ),
+                * UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::FRAC_PI_2),
         ),
     };
     shape.position(space::pose(&place)).friction(friction as f32).restitution(0.0)

@@ -60,9 +60,9 @@ impl Tracker {
                     return None;
                 }
                 let pose = noisy(&stage.hand(hand), track, person, &mut self.chance);
-                let grip = person.measures_grip.then(|| {
-                    (closed + 4.0 * person.noise * self.chance.normal()).clamp(0.0, 1.0)
-                });
+                let grip = person
+                    .measures_grip
+                    .then(|| (closed + 4.0 * person.noise * self.chance.normal()).clamp(0.0, 1.0));
                 let teach = teach[hand.index()];
                 Some(HandSample { pose, grip, teach, given: None })
             })
@@ -127,8 +127,5 @@ fn noisy(
     track.drift = track.drift * keep + chance.normals() * slow;
     let shift = chance.normals() * person.noise + track.drift;
     let turn = UnitQuaternion::from_scaled_axis(chance.normals() * person.turn_noise);
-    Isometry3::from_parts(
-        Translation3::from(pose.translation.vector + shift),
-        pose.rotation * turn,
-    )
+    Isometry3::from_parts(Translation3::from(pose.translation.vector + shift), pose.rotation * turn)
 }

@@ -15,7 +15,12 @@ const ACTS: f64 = 0.15;
 ///
 /// A hand acts on what its movement approaches or works on while it is within 0.15 m of its surface and comes nearer,
 /// or has come to rest there; from when it has closed around it or let go at it, it does not.
-pub(crate) fn truth<'a>(stage: &Stage, actors: impl Iterator<Item = &'a Actor>, header: &Header, time: f64) -> Truth {
+pub(crate) fn truth<'a>(
+    stage: &Stage,
+    actors: impl Iterator<Item = &'a Actor>,
+    header: &Header,
+    time: f64,
+) -> Truth {
     let hands = stage
         .hands()
         .zip(actors)
@@ -23,12 +28,14 @@ pub(crate) fn truth<'a>(stage: &Stage, actors: impl Iterator<Item = &'a Actor>, 
             let (velocity, place) = (stage.velocity(hand), stage.hand(hand).translation.vector);
             let moves = velocity.norm() > MOVES;
             let in_hand = stage.held(hand);
-            let acted_on = actor.about().filter(|object| Some(*object) != in_hand).filter(|object| {
-                let distance = stage.distance(*object, place);
-                let ahead = stage.distance(*object, place + velocity * 0.02);
-                let inside = distance < 0.005 && stage.pose(*object).translation.vector.z < place.z + 0.1;
-                distance < ACTS && (!moves || ahead < distance || inside)
-            });
+            let acted_on =
+                actor.about().filter(|object| Some(*object) != in_hand).filter(|object| {
+                    let distance = stage.distance(*object, place);
+                    let ahead = stage.distance(*object, place + velocity * 0.02);
+                    let inside = distance < 0.005
+                        && stage.pose(*object).translation.vector.z < place.z + 0.1;
+                    distance < ACTS && (!moves || ahead < distance || inside)
+                });
             let state = HandState { moves, acted_on, in_hand };
             (state, activity(state))
         })
