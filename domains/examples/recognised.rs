@@ -13,6 +13,9 @@ fn main() {
         (Score::default(), Score::default(), Score::default());
     let mut worst: Vec<(f64, String)> = Vec::new();
     for scenario in Scenario::ALL {
+        if std::env::args().nth(3).is_some_and(|only| !scenario.name().contains(&only)) {
+            continue;
+        }
         let mut one = Score::default();
         for task in scenario.tasks().iter().copied().filter(|task| *task != Task::Nothing) {
             for number in first..first + persons {

@@ -60,10 +60,15 @@ pub(super) fn acted_on(
                 .map(|index| (at(index).distance(held, number), index))
                 .filter(|(distance, _)| !distance.is_nan())
                 .fold((f64::INFINITY, now), |best, next| if next.0 < best.0 { next } else { best });
-            let touch = if held.is_some() { config.touch.high } else { config.hold.low };
             let under_way = end.is_none() && place + 1 >= until && at(until).moves;
-            let stops = held.is_none() && (place..=until).take(STOP).any(|index| !at(index).moves);
-            if nearest > touch && !under_way && !stops {
+            let stops = (place..=until).take(STOP).any(|index| !at(index).moves);
+            // What is held comes to something when it touches it, and stays or stops there.
+            let touches = held.is_none() || nearest <= config.touch.high;
+            let lingers = held.is_some()
+                && (place..=until)
+                    .all(|index| at(index).distance(held, number) <= config.touch.high)
+                && moments[until].time - moments[place].time >= config.ahead / 2.0;
+            if !(under_way || touches && (stops || lingers || place == until && end.is_some())) {
                 continue;
             }
             score = nearest;
