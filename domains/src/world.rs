@@ -6,12 +6,13 @@
 //! - `thing`: furniture by its measures;
 //! - `stage`, `screw`: the physical world with its hands, and the thread of a lid;
 //! - `motion`: the ways of hands;
-//! - [`person`]: who demonstrates;
-//! - `cubes`, `kitchen`, `bottle`, `hanoi`, [`scenario`]: the worlds and what is done in them;
+//! - [`Person`]: who demonstrates;
+//! - `cubes`, `kitchen`, `bottle`, `hanoi`, [`Scenario`]: the worlds and what is done in them;
 //! - `skill`, `actor`: what hands can do, as movements;
 //! - `facts`, `witness`: what holds, and what really happens;
 //! - `tracker`: what a noisy tracker logs of it;
-//! - [`demonstrate`](demonstrate()): all of that in a row.
+//! - [`demonstrate`](demonstrate()): all of that in a row; [`draw`]: a log as a picture;
+//! - [`execute`](execute()): a plan carried out by way points, and judged.
 //!
 //! Nothing teleports: hands are kinematic bodies with bounded speed, and what they hold follows by a joint of bounded force.
 //!
@@ -28,11 +29,13 @@ mod bottle;
 mod chance;
 mod cubes;
 mod demonstrate;
+mod execute;
 mod facts;
 mod hanoi;
 mod kitchen;
 mod motion;
 mod person;
+mod picture;
 mod scenario;
 mod screw;
 mod skill;
@@ -43,7 +46,9 @@ mod tracker;
 mod witness;
 
 pub use demonstrate::{Demonstration, demonstrate};
+pub use execute::{Outcome, PlanStep, execute, holds_at_start};
 pub use motion::{GREATEST_ACCELERATION, GREATEST_SPEED, GREATEST_TURN};
 pub use person::{HELD_OUT, Person, Side};
+pub use picture::draw;
 pub use scenario::{Goal, Scenario, Task};
 pub use tracker::RATE;

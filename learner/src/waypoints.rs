@@ -72,12 +72,13 @@ fn write_pose<S: Serializer>(pose: &Isometry3<f64>, serializer: S) -> Result<S::
 }
 
 fn read_pose<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Isometry3<f64>, D::Error> {
-    let [x, y, z, i, j, k, w] = <[f64; 7]>::deserialize(deserializer)?;
-    let turn = Quaternion::new(w, i, j, k);
+    let numbers = <[f64; 7]>::deserialize(deserializer)?;
+    let turn = Quaternion::new(numbers[6], numbers[3], numbers[4], numbers[5]);
     if !(0.9..1.1).contains(&turn.norm()) {
         return Err(D::Error::custom("the last four numbers of a pose are no unit quaternion"));
     }
-    Ok(Isometry3::from_parts(Translation3::new(x, y, z), UnitQuaternion::from_quaternion(turn)))
+    let place = Translation3::new(numbers[0], numbers[1], numbers[2]);
+    Ok(Isometry3::from_parts(place, UnitQuaternion::from_quaternion(turn)))
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ pub(crate) struct Actor {
     hand: HandId,
     queue: VecDeque<Act>,
     /// The way under way, and for how long.
-    way: Option<(Way, f64)>,
+    way: Option<(Box<Way>, f64)>,
     /// How long it still rests, in seconds.
     rest: f64,
     /// What it approaches or works on, until its hand opens or closes, or it goes elsewhere.

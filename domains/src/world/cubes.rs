@@ -11,7 +11,7 @@ use super::space::{at, turned};
 use super::stage::Stage;
 use super::thing;
 use learner::log::{HandId, ObjectId};
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Translation3, Vector3};
 
 /// The height of the table, in metres.
 const TOP: f64 = 0.75;
@@ -129,8 +129,19 @@ pub(crate) fn in_turn_from(
     chance: &mut Chance,
     back: bool,
 ) -> Vec<Vec<Skill>> {
-    let mut hands: Vec<Vec<Skill>> =
-        stage.hands().map(|_| vec![Skill::Pause(chance.within((0.4, 0.9)))]).collect();
+    let mut hands: Vec<Vec<Skill>> = stage
+        .hands()
+        .map(|hand| {
+            let mut first = vec![Skill::Pause(chance.within((0.4, 0.9)))];
+            if chance.happens(0.2) {
+                // A hand that is not needed yet stirs, with nothing in mind.
+                let off = chance.normals() * 0.04;
+                let aside = Isometry3::from(Translation3::from(off)) * stage.hand(hand);
+                first.extend([Skill::Go(aside), Skill::Pause(0.3), Skill::Go(stage.hand(hand))]);
+            }
+            first
+        })
+        .collect();
     let home = |hand: HandId| Skill::Go(stage.hand(hand));
     let mut before: Option<(HandId, usize)> = None;
     for (hand, skills) in turns {

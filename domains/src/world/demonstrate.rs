@@ -85,6 +85,8 @@ struct Role {
     at: usize,
     /// The skill under way was begun.
     begun: bool,
+    /// How many skills were done at most, before something had to be done again.
+    furthest: usize,
     tries: u32,
     failed: bool,
 }
@@ -92,7 +94,7 @@ struct Role {
 impl Role {
     fn new(stage: &Stage, hand: HandId, skills: Vec<Skill>) -> Self {
         let actor = Actor::new(stage, hand);
-        Self { hand, actor, skills, at: 0, begun: false, tries: 0, failed: false }
+        Self { hand, actor, skills, at: 0, begun: false, furthest: 0, tries: 0, failed: false }
     }
 
     fn finished(&self) -> bool {
@@ -123,7 +125,10 @@ impl Role {
                 self.begun = false;
                 if done(&skill, stage, self.hand) {
                     self.at += 1;
-                    self.tries = 0;
+                    if self.at > self.furthest {
+                        self.furthest = self.at;
+                        self.tries = 0;
+                    }
                     continue;
                 }
                 self.tries += 1;
@@ -148,9 +153,6 @@ impl Role {
             self.begun = true;
             let acts = Planner::new(stage, person, chance, self.hand).acts(&skill);
             self.actor.add(acts);
-            if self.actor.idle() {
-                continue;
-            }
         }
     }
 }

@@ -102,12 +102,11 @@ pub(crate) fn script(_person: &Person, chance: &mut Chance, stage: &Stage, cubes
         let hand = HandId(u32::from(from.min(to) == 1));
         let thing = ObjectId(FIRST + cube);
         piles[from].pop();
-        let put = match piles[to].last() {
-            Some(below) => Skill::Put { thing, on: ObjectId(FIRST + below), place: None },
-            None => {
-                let off = Vector3::new(SPOTS[to].1, 0.0, 0.0) + chance.normals() * 0.003;
-                Skill::Put { thing, on: table, place: Some(Vector3::new(off.x, off.y, 0.0)) }
-            }
+        let put = if let Some(below) = piles[to].last() {
+            Skill::Put { thing, on: ObjectId(FIRST + below), place: None }
+        } else {
+            let off = Vector3::new(SPOTS[to].1, 0.0, 0.0) + chance.normals() * 0.003;
+            Skill::Put { thing, on: table, place: Some(Vector3::new(off.x, off.y, 0.0)) }
         };
         piles[to].push(cube);
         let home = Skill::Go(stage.hand(hand));

@@ -19,7 +19,7 @@ const SAMPLES: usize = 48;
 #[derive(Debug, Clone)]
 enum Course {
     /// A cubic Bézier curve with the length from its start at each sample.
-    Bezier { points: [Vector3<f64>; 4], lengths: [f64; SAMPLES + 1] },
+    Bezier { points: [Vector3<f64>; 4], lengths: Vec<f64> },
     /// A turn about an axis.
     Arc { centre: Vector3<f64>, axis: Unit<Vector3<f64>>, angle: f64, start: Isometry3<f64> },
 }
@@ -53,7 +53,7 @@ impl Way {
             end.translation.vector + arrive,
             end.translation.vector,
         ];
-        let mut lengths = [0.0; SAMPLES + 1];
+        let mut lengths = vec![0.0; SAMPLES + 1];
         let mut before = points[0];
         for sample in 1..=SAMPLES {
             let here = bezier(&points, sample as f64 / SAMPLES as f64);
@@ -61,12 +61,9 @@ impl Way {
             before = here;
         }
         let turn = start.rotation.angle_to(&end.rotation);
-        Self {
-            course: Course::Bezier { points, lengths },
-            from: start.rotation,
-            to: end.rotation,
-            duration: duration(lengths[SAMPLES], turn, speed).max(least),
-        }
+        let duration = duration(lengths[SAMPLES], turn, speed).max(least);
+        let course = Course::Bezier { points, lengths };
+        Self { course, from: start.rotation, to: end.rotation, duration }
     }
 
     /// A turn about an axis through a point, by an angle in radians.
@@ -130,7 +127,7 @@ fn bezier(points: &[Vector3<f64>; 4], at: f64) -> Vector3<f64> {
 }
 
 /// The parameter at which a share of the length is behind.
-fn parameter(lengths: &[f64; SAMPLES + 1], share: f64) -> f64 {
+fn parameter(lengths: &[f64], share: f64) -> f64 {
     let wanted = share * lengths[SAMPLES];
     let after = lengths.partition_point(|&length| length < wanted).clamp(1, SAMPLES);
     let step = lengths[after] - lengths[after - 1];

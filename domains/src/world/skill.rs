@@ -42,7 +42,7 @@ pub(crate) enum Skill {
 #[derive(Debug, Clone)]
 pub(crate) enum Act {
     /// Go a way; `about` is what the hand approaches or works on.
-    Go { way: Way, about: Option<ObjectId> },
+    Go { way: Box<Way>, about: Option<ObjectId> },
     /// Close or open the hand.
     Grip(bool),
     /// Rest, in seconds.
@@ -91,7 +91,7 @@ impl<'world> Planner<'world> {
                 let centre = self.stage.pose(lid).translation.vector;
                 let way = Way::around(&self.at, centre, Vector3::z_axis(), angle, 0.12);
                 self.at = way.at(way.duration);
-                self.acts.push(Act::Go { way, about: None });
+                self.acts.push(Act::Go { way: Box::new(way), about: None });
                 self.acts.push(Act::Rest(self.person.delay));
             }
             Skill::Seat { lid, bottle } => {
@@ -144,7 +144,7 @@ impl<'world> Planner<'world> {
         }
         let way = Way::new(&self.at, &end, leave, arrive, self.person.speed * pace, 0.15);
         self.at = end;
-        self.acts.push(Act::Go { way, about });
+        self.acts.push(Act::Go { way: Box::new(way), about });
     }
 
     /// Where to take a thing, given how it lies and where the hand comes from.
@@ -283,12 +283,16 @@ impl<'world> Planner<'world> {
         let (from, to) = (self.at.translation.vector, end.translation.vector);
         let along = to.xy() - from.xy();
         let hang = carried.map_or(0.0, |thing| self.stage.thing(thing).object.size.z);
+        let reach = carried.map_or(0.0, |thing| self.stage.thing(thing).object.size.x / 2.0);
         let low = from.z.min(to.z);
-        let mut needed: f64 = 0.0;
+        // What is carried a long way comes down steeply enough not to push over what it is set on:
+        // at a height z over its end the curve is off by d·z²/(3·rise²), which is to be 5 cm at 10 cm.
+        let mut needed: f64 = if carried.is_some() { 0.26 * along.norm().sqrt() } else { 0.0 };
         for object in self.stage.objects() {
             let thing = self.stage.thing(object);
-            if Some(object) == carried || thing.mount != Mount::Free || thing.object.kind == "chair"
-            {
+            // An empty hand goes around a chair, and needs not rise over it.
+            let around = carried.is_none() && thing.object.kind == "chair";
+            if Some(object) == carried || thing.mount != Mount::Free || around {
                 continue;
             }
             let place = self.stage.pose(object).translation.vector;
@@ -299,7 +303,10 @@ impl<'world> Planner<'world> {
             };
             // The ends themselves stand where hands arrive and leave.
             let between = (0.15..0.85).contains(&share);
-            if between && (from.xy() + along * share - place.xy()).norm() < 0.14 {
+            if between
+                && (from.xy() + along * share - place.xy()).norm()
+                    < 0.11 + thing.object.size.x / 2.0 + reach
+            {
                 let top = place.z + thing.object.size.z / 2.0;
                 needed = needed.max((top + hang + 0.05 - low) / 0.75);
             }

@@ -249,13 +249,11 @@ impl Stage {
     pub(crate) fn joints(&self, object: ObjectId) -> Vec<f64> {
         let thing = self.thing(object);
         let Some(joint) = thing.object.joints.first() else { return Vec::new() };
-        match (&self.screw, thing.mount) {
-            (Some(screw), Mount::Free) => vec![screw.value()],
-            _ => {
-                let moved = self.pose(object).translation.vector - thing.pose.translation.vector;
-                vec![moved.dot(&(thing.pose.rotation * joint.axis))]
-            }
+        if let (Some(screw), Mount::Free) = (&self.screw, thing.mount) {
+            return vec![screw.value()];
         }
+        let moved = self.pose(object).translation.vector - thing.pose.translation.vector;
+        vec![moved.dot(&(thing.pose.rotation * joint.axis))]
     }
 
     /// How far a thing is open, from 0 (its lower limit) to 1; none without a joint.
