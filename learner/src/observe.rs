@@ -102,6 +102,8 @@ pub struct Observer<'a> {
     moving: Vec<Moving>,
     grasps: Vec<Grasp>,
     bodies: Vec<Body>,
+    /// Which objects hands can take: those that are neither places nor furniture.
+    loose: Vec<bool>,
     still: Vec<Still>,
     geometry: Geometry,
     /// The moments between front and back, with some that were given out already.
@@ -174,6 +176,11 @@ impl<'a> Observer<'a> {
             moving: (0..hands).map(|_| Moving::default()).collect(),
             grasps: (0..hands).map(|_| Grasp::default()).collect(),
             bodies: vec![Body::default(); objects],
+            loose: header
+                .objects
+                .iter()
+                .map(|what| !what.region && !(what.fixed && what.joints.is_empty()))
+                .collect(),
             still: (0..objects).map(|_| Still::default()).collect(),
             geometry: Geometry::new(header),
             moments: VecDeque::new(),
@@ -199,6 +206,7 @@ impl<'a> Observer<'a> {
                 turn: hand.pose.rotation,
                 open: f64::NAN,
             });
+            track.measure(sample.as_ref());
             track.push(sample, &self.times, bridge);
         }
         for (number, object) in frame.objects.iter().enumerate() {
@@ -298,16 +306,16 @@ impl<'a> Observer<'a> {
             let bare = self.distances(place, self.config.measure);
             let held = self.grasps[hand].held();
             let gaps = held.map(|held| self.gaps(held)).unwrap_or_default();
-            let near: Vec<(ObjectId, f64)> = self
-                .header
-                .objects
+            let by_surface = match self.config.measure {
+                Measure::Surface => &bare,
+                Measure::Centre => &self.distances(place, Measure::Surface),
+            };
+            let hold = self.config.hold.high as f32;
+            let near: Vec<(ObjectId, f64)> = by_surface
                 .iter()
                 .enumerate()
-                .filter(|(_, what)| !what.region && !(what.fixed && what.joints.is_empty()))
-                .filter_map(|(object, _)| {
-                    let far = self.bodies[object].shape?.distance(&place?);
-                    (far <= self.config.hold.high).then_some((ObjectId(object as u32), far))
-                })
+                .filter(|(object, far)| **far <= hold && self.loose[*object])
+                .map(|(object, far)| (ObjectId(object as u32), f64::from(*far)))
                 .collect();
             if let Some(pose) = pose {
                 let seen = Seen {
@@ -506,10 +514,7 @@ impl<'a> Observer<'a> {
     fn credits(&self, now: usize, objects: &[ObjectId]) -> Vec<Credit> {
         let time = self.moments[now].time;
         // What is fixed does not change, so being near to it earns nothing.
-        let loose = |object: &&ObjectId| {
-            let what = &self.header.objects[object.index()];
-            !what.region && !(what.fixed && what.joints.is_empty())
-        };
+        let loose = |object: &&ObjectId| self.loose[object.index()];
         let mut credits: Vec<Credit> = Vec::new();
         for number in 0..self.header.hands.len() {
             let hand = HandId(number as u32);

@@ -209,7 +209,7 @@ impl Default for Config {
             bridge: 0.5,
             window: 0.17,
             smooth: 0.06,
-            ahead: 1.0,
+            ahead: 1.5,
             seen: 0.3,
             gap: Band { low: 0.012, high: 0.02 },
             depth: 0.02,

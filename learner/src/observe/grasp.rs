@@ -222,8 +222,7 @@ impl Grasp {
             .find(|(object, _)| *object == bond.object)
             .is_none_or(|&(_, distance)| distance > config.hold.high);
         let measured = seen.grip.is_some_and(|grip| grip > config.grip.low);
-        // A closed gripper lets go only of what is clearly away from it; a hand without one of what stays behind.
-        if if measured { far } else { shift > 2.0 * config.rigid || far } {
+        if shift > 2.0 * config.rigid || far {
             let object = bond.object;
             self.held = None;
             self.doubt = None;

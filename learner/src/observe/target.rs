@@ -51,7 +51,11 @@ pub(super) fn acted_on(
         {
             continue;
         }
-        if !approaches(moments, now, hand, number, before == Some(id), config) {
+        let rate = rate(moments, now, hand, number, config.smooth);
+        let slack = if before == Some(id) { 0.5 } else { 1.0 } * config.approach;
+        // A hand that will take something may also move along it, and one that works on something stays in touch.
+        let near = taken == Some(id) || distance <= 0.0;
+        if rate.map_or(before != Some(id), |rate| rate >= if near { slack } else { -slack }) {
             continue;
         }
         let mut score = distance;
@@ -92,30 +96,24 @@ fn may_be_acted_on(header: &Header, id: ObjectId, held: Option<ObjectId>, config
     !furniture && held != Some(id) && !alike && !config.never_acted_on.contains(&object.kind)
 }
 
-/// Whether the distance of a hand to an object shrinks, or the hand works on it: it stays in touch and does not leave.
-fn approaches(
+/// How fast the distance of a hand to an object grows, in metres per second, over so many seconds before and after; none where there is nothing to compare.
+fn rate(
     moments: &VecDeque<Moment>,
     now: usize,
     hand: HandId,
     object: usize,
-    before: bool,
-    config: &Config,
-) -> bool {
+    half: f64,
+) -> Option<f64> {
     let reading = |index: usize| {
         let distance = moments[index].hands[hand.index()].bare(object);
         (!distance.is_nan()).then_some((moments[index].time, distance))
     };
-    let near = |index: &usize| (moments[*index].time - moments[now].time).abs() <= config.smooth;
+    let near = |index: &usize| (moments[*index].time - moments[now].time).abs() <= half;
     let first = (0..now).rev().take_while(near).filter_map(reading).last();
     let last = (now + 1..moments.len()).take_while(near).filter_map(reading).last();
-    let Some(here) = reading(now) else { return false };
+    let here = reading(now)?;
     let (from, to) = (first.unwrap_or(here), last.unwrap_or(here));
-    if to.0 <= from.0 {
-        return before;
-    }
-    let rate = (to.1 - from.1) / (to.0 - from.0);
-    let slack = if before { 0.5 } else { 1.0 };
-    rate < -config.approach * slack || here.1 <= 0.0 && rate < config.approach * slack
+    (to.0 > from.0).then(|| (to.1 - from.1) / (to.0 - from.0))
 }
 
 impl HandMoment {

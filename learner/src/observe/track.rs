@@ -44,10 +44,8 @@ impl Track {
         self.samples.push_back(sample);
         let Some(found) = sample else {
             self.missing += 1;
-            self.row.clear();
             return;
         };
-        self.measure(found.place);
         let now = self.samples.len() - 1;
         let gap = std::mem::take(&mut self.missing);
         if gap == 0 || gap >= now {
@@ -75,13 +73,18 @@ impl Track {
 
     /// The variance of tracking along one axis, in square metres.
     ///
-    /// Third differences of a smooth motion vanish against those of noise, whose variance they have twentyfold.
+    /// Third differences of a smooth motion vanish beside those of noise, whose variance they have twentyfold.
     fn noise(&self) -> f64 {
         self.roughness / 20.0
     }
 
-    fn measure(&mut self, place: Vector3<f64>) {
-        self.row.push(place);
+    /// Takes the next sample to measure noise by.
+    pub fn measure(&mut self, sample: Option<&Sample>) {
+        let Some(sample) = sample else {
+            self.row.clear();
+            return;
+        };
+        self.row.push(sample.place);
         if self.row.len() < 4 {
             return;
         }
