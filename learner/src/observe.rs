@@ -320,6 +320,7 @@ impl<'a> Observer<'a> {
             if let Some(pose) = pose {
                 let seen = Seen {
                     frame: number,
+                    time,
                     pose,
                     grip,
                     moves,

@@ -65,14 +65,17 @@ pub(super) fn acted_on(
                 .filter(|(distance, _)| !distance.is_nan())
                 .fold((f64::INFINITY, now), |best, next| if next.0 < best.0 { next } else { best });
             let under_way = end.is_none() && place + 1 >= until && at(until).moves;
-            let stops = (place..=until).take(STOP).any(|index| !at(index).moves);
-            // What is held comes to something when it touches it, and stays or stops there.
-            let touches = held.is_none() || nearest <= config.touch.high;
-            let lingers = held.is_some()
-                && (place..=until)
-                    .all(|index| at(index).distance(held, number) <= config.touch.high)
-                && moments[until].time - moments[place].time >= config.ahead / 2.0;
-            if !(under_way || touches && (stops || lingers || place == until && end.is_some())) {
+            let meant = if held.is_some() {
+                // What is held comes to something when it touches it and stays or stops there, or is let go.
+                let touches = |index: usize| at(index).distance(held, number) <= config.touch.high;
+                let stops = (now..=until).any(|index| !at(index).moves && touches(index));
+                let stays = (place..=until).all(touches)
+                    && moments[until].time - moments[place].time >= config.ahead / 2.0;
+                stops || stays || place == until && end.is_some() && touches(until)
+            } else {
+                (place..=until).take(STOP).any(|index| !at(index).moves)
+            };
+            if !under_way && !meant {
                 continue;
             }
             score = nearest;
