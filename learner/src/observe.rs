@@ -100,6 +100,8 @@ pub struct Observer<'a> {
     passed: usize,
     first: u64,
     moving: Vec<Moving>,
+    /// How closed each hand was when it was last seen.
+    grips: Vec<Option<f64>>,
     grasps: Vec<Grasp>,
     bodies: Vec<Body>,
     /// Which objects hands can take: those that are neither places nor furniture.
@@ -174,6 +176,7 @@ impl<'a> Observer<'a> {
             passed: 0,
             first: 0,
             moving: (0..hands).map(|_| Moving::default()).collect(),
+            grips: vec![None; hands],
             grasps: (0..hands).map(|_| Grasp::default()).collect(),
             bodies: vec![Body::default(); objects],
             loose: header
@@ -205,6 +208,7 @@ impl<'a> Observer<'a> {
                 place: hand.pose.translation.vector,
                 turn: hand.pose.rotation,
                 open: f64::NAN,
+                filled: false,
             });
             track.measure(sample.as_ref());
             track.push(sample, &self.times, bridge);
@@ -227,12 +231,17 @@ impl<'a> Observer<'a> {
                     .zip(&object.joints)
                     .map(|(joint, value)| (value - joint.lower) / (joint.upper - joint.lower))
                     .fold(f64::NAN, f64::max),
+                filled: false,
             });
-            self.objects[number].push(sample, &self.times, bridge);
+            // Nothing is said of an object while it is lost, so its gaps stay.
+            self.objects[number].push(sample, &self.times, 0.0);
         }
-        let hands = frame.hands.iter().map(|hand| match hand {
-            Some(hand) => (hand.grip, hand.teach, hand.given),
-            None => (None, false, None),
+        let hands = frame.hands.iter().zip(&mut self.grips).map(|(hand, grip)| match hand {
+            Some(hand) => {
+                *grip = hand.grip;
+                (hand.grip, hand.teach, hand.given)
+            }
+            None => (*grip, false, None),
         });
         self.raw.push_back(Raw { hands: hands.collect(), facts: frame.facts.clone() });
         let lag = bridge.max(self.config.window).max(self.config.smooth);
@@ -317,7 +326,8 @@ impl<'a> Observer<'a> {
                 .filter(|(object, far)| **far <= hold && self.loose[*object])
                 .map(|(object, far)| (ObjectId(object as u32), f64::from(*far)))
                 .collect();
-            if let Some(pose) = pose {
+            // What a hand holds does not change while it is lost.
+            if let Some(pose) = pose.filter(|_| self.hands[hand].seen(index)) {
                 let seen = Seen {
                     frame: number,
                     time,

@@ -13,6 +13,8 @@ pub(super) struct Sample {
     pub turn: UnitQuaternion<f64>,
     /// How far its joints are open, from 0 to 1; not a number where there are none.
     pub open: f64,
+    /// It was lost, and this is only where it must have been about.
+    pub filled: bool,
 }
 
 /// The standard deviation that noise alone may give to velocity, in metres per second and axis.
@@ -62,8 +64,13 @@ impl Track {
             let turn = lost.turn.try_slerp(&found.turn, part, 1e-9).unwrap_or(found.turn);
             let open = lost.open + (found.open - lost.open) * part;
             let place = lost.place.lerp(&found.place, part);
-            self.samples[index] = Some(Sample { place, turn, open });
+            self.samples[index] = Some(Sample { place, turn, open, filled: true });
         }
+    }
+
+    /// Whether it was really seen at a frame.
+    pub fn seen(&self, index: usize) -> bool {
+        self.samples[index].is_some_and(|sample| !sample.filled)
     }
 
     /// Forgets the oldest frame.
