@@ -100,8 +100,12 @@ pub struct Observer<'a> {
     passed: usize,
     first: u64,
     moving: Vec<Moving>,
+    /// How closed each hand was when it was last seen.
+    grips: Vec<Option<f64>>,
     grasps: Vec<Grasp>,
     bodies: Vec<Body>,
+    /// Which objects hands can take: those that are neither places nor furniture.
+    loose: Vec<bool>,
     still: Vec<Still>,
     geometry: Geometry,
     /// The moments between front and back, with some that were given out already.
@@ -172,8 +176,14 @@ impl<'a> Observer<'a> {
             passed: 0,
             first: 0,
             moving: (0..hands).map(|_| Moving::default()).collect(),
+            grips: vec![None; hands],
             grasps: (0..hands).map(|_| Grasp::default()).collect(),
             bodies: vec![Body::default(); objects],
+            loose: header
+                .objects
+                .iter()
+                .map(|what| !what.region && !(what.fixed && what.joints.is_empty()))
+                .collect(),
             still: (0..objects).map(|_| Still::default()).collect(),
             geometry: Geometry::new(header),
             moments: VecDeque::new(),
@@ -198,7 +208,9 @@ impl<'a> Observer<'a> {
                 place: hand.pose.translation.vector,
                 turn: hand.pose.rotation,
                 open: f64::NAN,
+                filled: false,
             });
+            track.measure(sample.as_ref());
             track.push(sample, &self.times, bridge);
         }
         for (number, object) in frame.objects.iter().enumerate() {
@@ -219,12 +231,17 @@ impl<'a> Observer<'a> {
                     .zip(&object.joints)
                     .map(|(joint, value)| (value - joint.lower) / (joint.upper - joint.lower))
                     .fold(f64::NAN, f64::max),
+                filled: false,
             });
-            self.objects[number].push(sample, &self.times, bridge);
+            // Nothing is said of an object while it is lost, so its gaps stay.
+            self.objects[number].push(sample, &self.times, 0.0);
         }
-        let hands = frame.hands.iter().map(|hand| match hand {
-            Some(hand) => (hand.grip, hand.teach, hand.given),
-            None => (None, false, None),
+        let hands = frame.hands.iter().zip(&mut self.grips).map(|(hand, grip)| match hand {
+            Some(hand) => {
+                *grip = hand.grip;
+                (hand.grip, hand.teach, hand.given)
+            }
+            None => (*grip, false, None),
         });
         self.raw.push_back(Raw { hands: hands.collect(), facts: frame.facts.clone() });
         let lag = bridge.max(self.config.window).max(self.config.smooth);
@@ -298,20 +315,22 @@ impl<'a> Observer<'a> {
             let bare = self.distances(place, self.config.measure);
             let held = self.grasps[hand].held();
             let gaps = held.map(|held| self.gaps(held)).unwrap_or_default();
-            let near: Vec<(ObjectId, f64)> = self
-                .header
-                .objects
+            let by_surface = match self.config.measure {
+                Measure::Surface => &bare,
+                Measure::Centre => &self.distances(place, Measure::Surface),
+            };
+            let hold = self.config.hold.high as f32;
+            let near: Vec<(ObjectId, f64)> = by_surface
                 .iter()
                 .enumerate()
-                .filter(|(_, what)| !what.region && !(what.fixed && what.joints.is_empty()))
-                .filter_map(|(object, _)| {
-                    let far = self.bodies[object].shape?.distance(&place?);
-                    (far <= self.config.hold.high).then_some((ObjectId(object as u32), far))
-                })
+                .filter(|(object, far)| **far <= hold && self.loose[*object])
+                .map(|(object, far)| (ObjectId(object as u32), f64::from(*far)))
                 .collect();
-            if let Some(pose) = pose {
+            // What a hand holds does not change while it is lost.
+            if let Some(pose) = pose.filter(|_| self.hands[hand].seen(index)) {
                 let seen = Seen {
                     frame: number,
+                    time,
                     pose,
                     grip,
                     moves,
@@ -506,10 +525,7 @@ impl<'a> Observer<'a> {
     fn credits(&self, now: usize, objects: &[ObjectId]) -> Vec<Credit> {
         let time = self.moments[now].time;
         // What is fixed does not change, so being near to it earns nothing.
-        let loose = |object: &&ObjectId| {
-            let what = &self.header.objects[object.index()];
-            !what.region && !(what.fixed && what.joints.is_empty())
-        };
+        let loose = |object: &&ObjectId| self.loose[object.index()];
         let mut credits: Vec<Credit> = Vec::new();
         for number in 0..self.header.hands.len() {
             let hand = HandId(number as u32);

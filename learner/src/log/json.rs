@@ -29,7 +29,7 @@ pub(crate) use write::{number, quoted, words, write_state};
 /// assert_eq!(frame.hands[0].as_ref().unwrap().pose.translation.x, 0.1);
 /// assert_eq!(
 ///     reader.next().unwrap().unwrap_err().to_string(),
-///     "line 3, column 29: `hands`: the header has no hand `right-hnad`; did you mean `right-hand`?"
+///     "line 3, column 31: `hands`: the header has no hand `right-hnad`; did you mean `right-hand`?"
 /// );
 /// assert!(reader.next().is_none());
 /// ```

@@ -35,6 +35,8 @@ pub struct Config {
     pub rigid: f64,
     /// Without a measured grip something is in a hand only after it was moved so far.
     pub carried: f64,
+    /// Without a measured grip a hand that rests at something for so long holds it.
+    pub settled: f64,
     /// What a thing in a hand rests on counts: it may be on top of, inside or at something. If false it rests only on what is in a hand itself.
     pub held_things_rest: bool,
     /// A hand state or relation lasts at least so long; published are 0.05.
@@ -170,6 +172,7 @@ impl Config {
             ("approach", self.approach),
             ("rigid", self.rigid),
             ("carried", self.carried),
+            ("settled", self.settled),
             ("minimum", self.minimum),
             ("bridge", self.bridge),
             ("window", self.window),
@@ -204,12 +207,13 @@ impl Default for Config {
             touch: Band { low: 0.01, high: 0.02 },
             rigid: 0.015,
             carried: 0.02,
+            settled: 0.8,
             held_things_rest: false,
             minimum: 0.05,
             bridge: 0.5,
             window: 0.17,
             smooth: 0.06,
-            ahead: 1.0,
+            ahead: 1.5,
             seen: 0.3,
             gap: Band { low: 0.012, high: 0.02 },
             depth: 0.02,

@@ -11,6 +11,8 @@ use crate::log::ObjectId;
 pub(super) struct Seen<'a> {
     /// The number of the frame.
     pub frame: u64,
+    /// The time in seconds.
+    pub time: f64,
     /// The pose of the hand.
     pub pose: Isometry3<f64>,
     /// How closed it is, where that is measured.
@@ -48,6 +50,8 @@ struct Bond {
     rest: Option<u64>,
     /// The frame in which it last began to move.
     leave: u64,
+    /// The time of the last frame in which the hand moved.
+    moved: f64,
 }
 
 /// Follows one hand.
@@ -110,6 +114,7 @@ impl Grasp {
                 Some(bond) => {
                     if seen.moves {
                         bond.leave = seen.turned.0;
+                        bond.moved = seen.time;
                     } else {
                         bond.rest = bond.rest.or(Some(seen.turned.0.max(bond.frame)));
                     }
@@ -222,8 +227,7 @@ impl Grasp {
             .find(|(object, _)| *object == bond.object)
             .is_none_or(|&(_, distance)| distance > config.hold.high);
         let measured = seen.grip.is_some_and(|grip| grip > config.grip.low);
-        // A closed gripper lets go only of what is clearly away from it; a hand without one of what stays behind.
-        if if measured { far } else { shift > 2.0 * config.rigid || far } {
+        if shift > 2.0 * config.rigid || far {
             let object = bond.object;
             self.held = None;
             self.doubt = None;
@@ -240,11 +244,17 @@ impl Grasp {
     }
 
     /// What moves with a hand and keeps its place in it is held.
+    /// Where no grip is measured, so is that at which a hand stays for long, such as a bottle that it only steadies.
     /// It was taken while the hand rested at it; nothing shows when, and the middle of that time is the best guess.
     fn by_motion(&mut self, seen: &Seen<'_>, config: &Config, changes: &mut Vec<Since>) {
         let carried = |bond: &&Bond| {
-            seen.shape(bond.object)
-                .is_some_and(|shape| (shape.middle() - bond.place).norm() >= config.carried)
+            let along = seen
+                .shape(bond.object)
+                .is_some_and(|shape| (shape.middle() - bond.place).norm() >= config.carried);
+            let stays = seen.grip.is_none()
+                && bond.rest.is_some()
+                && seen.time - bond.moved >= config.settled;
+            along || stays
         };
         let distance = |bond: &Bond| {
             seen.near
@@ -262,8 +272,12 @@ impl Grasp {
         if let Some(bond) = best {
             self.held = Some(bond);
             self.firm = seen.frame;
-            let frame =
-                bond.rest.map_or(bond.frame, |rest| u64::midpoint(rest, bond.leave.max(rest)));
+            let frame = match bond.rest {
+                Some(rest) if bond.leave > rest => u64::midpoint(rest, bond.leave),
+                // It is there still; hands close soon after they come to rest.
+                Some(rest) => rest + (seen.frame - rest) / 4,
+                None => bond.frame,
+            };
             self.since = frame;
             changes.push(Since { frame, object: Some(bond.object) });
         }
@@ -287,6 +301,14 @@ impl Seen<'_> {
         let place = self.shape(object)?.middle();
         let offset = self.pose.rotation.inverse() * (place - self.pose.translation.vector);
         let rest = (!self.moves).then_some(self.frame);
-        Some(Bond { object, offset, place, frame: self.frame, rest, leave: self.turned.0 })
+        Some(Bond {
+            object,
+            offset,
+            place,
+            frame: self.frame,
+            rest,
+            leave: self.turned.0,
+            moved: self.time,
+        })
     }
 }

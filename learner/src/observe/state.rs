@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::config::Config;
 use super::relation::Flip;
 use super::vocabulary::{Ground, Relation, Thing};
-use crate::log::{Fact, HandId, HandState, Header, ObjectId};
+use crate::log::{Fact, HandId, HandState, Header, Motion, ObjectId};
 
 /// What holds at a frame.
 #[derive(Debug, Default)]
@@ -115,16 +115,15 @@ impl State {
             let thing = Thing::Object(object);
             let what = &header.objects[object.index()];
             let one = |relation| Ground { relation, things: vec![thing] };
-            if (what.region || !what.fixed && !what.hollow && what.joints.is_empty())
-                && !covered.contains(&thing)
-            {
+            if (what.region || !what.fixed && !what.hollow) && !covered.contains(&thing) {
                 grounds.push(one(Relation::Clear));
             }
             if !what.joints.is_empty() {
                 if !self.base.contains(&(Relation::Open, thing, thing)) {
                     grounds.push(one(Relation::Closed));
                 }
-                if !blocked.contains(&thing) {
+                let slides = what.joints.iter().any(|joint| joint.motion == Motion::Slides);
+                if slides && !blocked.contains(&thing) {
                     grounds.push(one(Relation::Unblocked));
                 }
             }

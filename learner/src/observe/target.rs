@@ -51,7 +51,11 @@ pub(super) fn acted_on(
         {
             continue;
         }
-        if !approaches(moments, now, hand, number, before == Some(id), config) {
+        let rate = rate(moments, now, hand, number, config.smooth);
+        let slack = if before == Some(id) { 0.5 } else { 1.0 } * config.approach;
+        // A hand that will take something may also move along it, and one that works on something stays in touch.
+        let near = taken == Some(id) || distance <= 0.0;
+        if rate.map_or(before != Some(id), |rate| rate >= if near { slack } else { -slack }) {
             continue;
         }
         let mut score = distance;
@@ -60,10 +64,18 @@ pub(super) fn acted_on(
                 .map(|index| (at(index).distance(held, number), index))
                 .filter(|(distance, _)| !distance.is_nan())
                 .fold((f64::INFINITY, now), |best, next| if next.0 < best.0 { next } else { best });
-            let touch = if held.is_some() { config.touch.high } else { config.hold.low };
             let under_way = end.is_none() && place + 1 >= until && at(until).moves;
-            let stops = held.is_none() && (place..=until).take(STOP).any(|index| !at(index).moves);
-            if nearest > touch && !under_way && !stops {
+            let meant = if held.is_some() {
+                // What is held comes to something when it touches it and stays or stops there, or is let go.
+                let touches = |index: usize| at(index).distance(held, number) <= config.touch.high;
+                let stops = (now..=until).any(|index| !at(index).moves && touches(index));
+                let stays = (place..=until).all(touches)
+                    && moments[until].time - moments[place].time >= config.ahead / 2.0;
+                stops || stays || place == until && end.is_some() && touches(until)
+            } else {
+                (place..=until).take(STOP).any(|index| !at(index).moves)
+            };
+            if !under_way && !meant {
                 continue;
             }
             score = nearest;
@@ -87,30 +99,24 @@ fn may_be_acted_on(header: &Header, id: ObjectId, held: Option<ObjectId>, config
     !furniture && held != Some(id) && !alike && !config.never_acted_on.contains(&object.kind)
 }
 
-/// Whether the distance of a hand to an object shrinks, or the hand works on it: it stays in touch and does not leave.
-fn approaches(
+/// How fast the distance of a hand to an object grows, in metres per second, over so many seconds before and after; none where there is nothing to compare.
+fn rate(
     moments: &VecDeque<Moment>,
     now: usize,
     hand: HandId,
     object: usize,
-    before: bool,
-    config: &Config,
-) -> bool {
+    half: f64,
+) -> Option<f64> {
     let reading = |index: usize| {
         let distance = moments[index].hands[hand.index()].bare(object);
         (!distance.is_nan()).then_some((moments[index].time, distance))
     };
-    let near = |index: &usize| (moments[*index].time - moments[now].time).abs() <= config.smooth;
+    let near = |index: &usize| (moments[*index].time - moments[now].time).abs() <= half;
     let first = (0..now).rev().take_while(near).filter_map(reading).last();
     let last = (now + 1..moments.len()).take_while(near).filter_map(reading).last();
-    let Some(here) = reading(now) else { return false };
+    let here = reading(now)?;
     let (from, to) = (first.unwrap_or(here), last.unwrap_or(here));
-    if to.0 <= from.0 {
-        return before;
-    }
-    let rate = (to.1 - from.1) / (to.0 - from.0);
-    let slack = if before { 0.5 } else { 1.0 };
-    rate < -config.approach * slack || here.1 <= 0.0 && rate < config.approach * slack
+    (to.0 > from.0).then(|| (to.1 - from.1) / (to.0 - from.0))
 }
 
 impl HandMoment {

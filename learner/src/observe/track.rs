@@ -13,6 +13,8 @@ pub(super) struct Sample {
     pub turn: UnitQuaternion<f64>,
     /// How far its joints are open, from 0 to 1; not a number where there are none.
     pub open: f64,
+    /// It was lost, and this is only where it must have been about.
+    pub filled: bool,
 }
 
 /// The standard deviation that noise alone may give to velocity, in metres per second and axis.
@@ -44,10 +46,8 @@ impl Track {
         self.samples.push_back(sample);
         let Some(found) = sample else {
             self.missing += 1;
-            self.row.clear();
             return;
         };
-        self.measure(found.place);
         let now = self.samples.len() - 1;
         let gap = std::mem::take(&mut self.missing);
         if gap == 0 || gap >= now {
@@ -64,8 +64,13 @@ impl Track {
             let turn = lost.turn.try_slerp(&found.turn, part, 1e-9).unwrap_or(found.turn);
             let open = lost.open + (found.open - lost.open) * part;
             let place = lost.place.lerp(&found.place, part);
-            self.samples[index] = Some(Sample { place, turn, open });
+            self.samples[index] = Some(Sample { place, turn, open, filled: true });
         }
+    }
+
+    /// Whether it was really seen at a frame.
+    pub fn seen(&self, index: usize) -> bool {
+        self.samples[index].is_some_and(|sample| !sample.filled)
     }
 
     /// Forgets the oldest frame.
@@ -75,13 +80,18 @@ impl Track {
 
     /// The variance of tracking along one axis, in square metres.
     ///
-    /// Third differences of a smooth motion vanish against those of noise, whose variance they have twentyfold.
+    /// Third differences of a smooth motion vanish beside those of noise, whose variance they have twentyfold.
     fn noise(&self) -> f64 {
         self.roughness / 20.0
     }
 
-    fn measure(&mut self, place: Vector3<f64>) {
-        self.row.push(place);
+    /// Takes the next sample to measure noise by.
+    pub fn measure(&mut self, sample: Option<&Sample>) {
+        let Some(sample) = sample else {
+            self.row.clear();
+            return;
+        };
+        self.row.push(sample.place);
         if self.row.len() < 4 {
             return;
         }

@@ -209,13 +209,26 @@ mod tests {
 
     #[test]
     fn a_tree_reads_as_questions_and_answers() {
-        insta::assert_snapshot!(Tree::published(), @"");
+        insta::assert_snapshot!(Tree::published(), @r"
+        inHand = an object
+            actedOn = an object: Granular
+            actedOn = nil
+                handMove = true: Put
+                handMove = false: Take
+        inHand = nil
+            actedOn = an object: Reach
+            actedOn = nil: Idle
+        ");
     }
 
     #[test]
     fn a_tree_is_a_graph() {
         let graph = Tree::published().graph();
         assert_eq!((graph.node_count(), graph.edge_count()), (9, 8));
-        insta::assert_snapshot!(Tree::published().dot(), @"");
+        let dot = Tree::published().dot();
+        assert!(dot.starts_with("digraph activities {\n"), "{dot}");
+        assert!(dot.contains("n0 [label=\"inHand\", shape=ellipse];"), "{dot}");
+        assert!(dot.contains("n2 [label=\"Granular\", shape=box];"), "{dot}");
+        assert!(dot.contains("n0 -> n1 [label=\"an object\"];"), "{dot}");
     }
 }

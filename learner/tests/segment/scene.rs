@@ -1,8 +1,7 @@
 //! A script of what two hands do goes in; a log as a noisy tracker would write it comes out, with the truth beside it.
 
 use learner::log::{
-    Frame, Hand, HandId, HandSample, HandState, Header, Joint, Motion, Object, ObjectId,
-    ObjectSample,
+    Frame, Hand, HandId, HandSample, HandState, Header, Object, ObjectId, ObjectSample,
 };
 use learner::truth::{Activity, Truth};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
@@ -53,25 +52,6 @@ pub fn table() -> Object {
         kind: "table".into(),
         size: Vector3::new(2.0, 2.0, 0.04),
         fixed: true,
-        ..cube("")
-    }
-}
-
-/// A drawer that opens along x.
-pub fn drawer() -> Object {
-    let joint = Joint {
-        name: "slide".into(),
-        motion: Motion::Slides,
-        axis: Vector3::x(),
-        lower: 0.0,
-        upper: 0.3,
-    };
-    Object {
-        name: "drawer".into(),
-        kind: "drawer".into(),
-        size: Vector3::new(0.4, 0.4, 0.15),
-        hollow: true,
-        joints: vec![joint],
         ..cube("")
     }
 }
