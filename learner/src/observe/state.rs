@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::config::Config;
 use super::relation::Flip;
 use super::vocabulary::{Ground, Relation, Thing};
-use crate::log::{Fact, HandId, HandState, Header, Motion, ObjectId};
+use crate::log::{self, Fact, HandId, HandState, Header, Motion, ObjectId};
 
 /// What holds at a frame.
 #[derive(Debug, Default)]
@@ -128,6 +128,14 @@ impl State {
                 }
             }
         }
+        for &small in &self.known {
+            for &large in &self.known {
+                if is_smaller(&header.objects[small.index()], &header.objects[large.index()]) {
+                    let things = vec![Thing::Object(small), Thing::Object(large)];
+                    grounds.push(Ground { relation: Relation::Smaller, things });
+                }
+            }
+        }
         for (number, state) in hands.iter().enumerate() {
             let hand = Thing::Hand(HandId(number as u32));
             let with =
@@ -141,6 +149,19 @@ impl State {
         grounds.retain(|ground| config.relations.contains(&ground.relation));
         grounds
     }
+}
+
+/// A thing is smaller than another if it is narrower by so much, in metres.
+const NARROWER: f64 = 0.005;
+
+/// Whether one thing is smaller than another of its type, as far as it matters to what rests on what.
+fn is_smaller(small: &log::Object, large: &log::Object) -> bool {
+    let loose = |object: &log::Object| !object.fixed && !object.region;
+    loose(small)
+        && loose(large)
+        && small.kind == large.kind
+        && small.size.x + NARROWER < large.size.x
+        && small.size.y + NARROWER < large.size.y
 }
 
 /// What a fact of the log is about.

@@ -30,6 +30,8 @@ pub enum Relation {
     Reachable,
     /// The object, or the hand, is at the place.
     At,
+    /// The first object is smaller than the second, which is of the same type; known from the header.
+    Smaller,
     /// The hand holds the object.
     InHand,
     /// The hand holds nothing.
@@ -44,7 +46,7 @@ pub enum Relation {
 
 impl Relation {
     /// Those that are observed unless something else is said.
-    pub const DEFAULT: [Relation; 11] = [
+    pub const DEFAULT: [Relation; 12] = [
         Relation::OnTop,
         Relation::Inside,
         Relation::Open,
@@ -54,6 +56,7 @@ impl Relation {
         Relation::Unblocked,
         Relation::Reachable,
         Relation::At,
+        Relation::Smaller,
         Relation::InHand,
         Relation::HandEmpty,
     ];
@@ -103,6 +106,7 @@ pub struct Vocabulary {
     pub unblocked: Pattern,
     pub reachable: Pattern,
     pub at: Pattern,
+    pub smaller: Pattern,
     pub in_hand: Pattern,
     pub hand_empty: Pattern,
     pub acted_on: Pattern,
@@ -123,6 +127,7 @@ impl Default for Vocabulary {
             unblocked: pattern("(unblocked ?object)"),
             reachable: pattern("(reachable ?object ?hand)"),
             at: pattern("(at ?thing ?spot)"),
+            smaller: pattern("(smaller ?small ?large)"),
             in_hand: pattern("(in-hand ?object ?hand)"),
             hand_empty: pattern("(hand-empty ?hand)"),
             acted_on: pattern("(acted-on ?object ?hand)"),
@@ -145,6 +150,7 @@ impl Vocabulary {
             Relation::Unblocked => (&self.unblocked, &["object"]),
             Relation::Reachable => (&self.reachable, &["object", "hand"]),
             Relation::At => (&self.at, &["thing", "spot"]),
+            Relation::Smaller => (&self.smaller, &["small", "large"]),
             Relation::InHand => (&self.in_hand, &["object", "hand"]),
             Relation::HandEmpty => (&self.hand_empty, &["hand"]),
             Relation::ActedOn => (&self.acted_on, &["object", "hand"]),

@@ -19,9 +19,13 @@ const TOLERANCE: f64 = 0.012;
 const RADIAN: f64 = 0.15;
 /// The way of a hand is looked at in steps of so much, in seconds.
 const STEP: f64 = 1.0 / 30.0;
-/// Of the way to a thing, and away from one, so much is part of the routine, in seconds.
-const APPROACH: f64 = 0.9;
-const RETREAT: f64 = 0.7;
+/// The way to a thing belongs to the routine from where the hand is so far from where it gets, in metres, and at most so long before, in seconds;
+/// and likewise the way away from it.
+const CLEAR: f64 = 0.14;
+const LONGEST: f64 = 3.0;
+
+/// What was let go lies where it will stay after so long, in seconds.
+const SETTLED: f64 = 0.5;
 
 /// One demonstration, with where everything was.
 #[derive(Debug, Clone, Copy)]
@@ -72,7 +76,7 @@ fn routine(shown: &Shown<'_>, learned: &Learned, instance: &Instance) -> Option<
             let object = deed.object?;
             let anchor = Anchor::Middle(of(object)?);
             let base = shown.tracks.object(object, deed.from)?;
-            let start = deed.from.max(deed.at - APPROACH);
+            let start = scribe.begin_near(deed.at)?;
             scribe.way(start, deed.at, base, anchor, false)?;
             scribe.way(deed.at, deed.to.max(deed.at + STEP), base, anchor, true)?;
         }
@@ -81,7 +85,7 @@ fn routine(shown: &Shown<'_>, learned: &Learned, instance: &Instance) -> Option<
             let (support, anchor) = support(shown, deed, &of)?;
             let size = shown.header.objects[support.index()].size;
             let base = shown.tracks.object(support, deed.from)? * lifted(size.z / 2.0);
-            let start = deed.from.max(deed.at - 1.5 * APPROACH);
+            let start = scribe.begin_high(deed.from, deed.at)?;
             scribe.carried(start, deed.at, object, of(object)?, base, anchor)?;
             scribe.away(deed.at, base, anchor)?;
         }
@@ -91,7 +95,8 @@ fn routine(shown: &Shown<'_>, learned: &Learned, instance: &Instance) -> Option<
             let base = shown.tracks.object(object, deed.from)?;
             let grip = shown.grip(deed.hand, object, deed);
             if let Some((from, to)) = grip {
-                scribe.way(deed.from.max(from - APPROACH), from, base, anchor, false)?;
+                let start = scribe.begin_near(from)?;
+                scribe.way(start, from, base, anchor, false)?;
                 scribe.way(from, to, base, anchor, true)?;
                 scribe.away(to, base, anchor)?;
             } else {
@@ -244,7 +249,7 @@ impl Scribe<'_> {
         let foot = -self.shown.header.objects[object.index()].size.z / 2.0;
         // What is in the hand moves with it, and hands are tracked more densely.
         let held =
-            tracks.hand(self.hand, to - STEP)?.inverse() * tracks.object(object, to + RETREAT)?;
+            tracks.hand(self.hand, to - STEP)?.inverse() * tracks.object(object, to + SETTLED)?;
         let poses =
             samples(from, to, |time| Some(tracks.hand(self.hand, time)? * held * lifted(foot)))?;
         for (time, pose) in simplified(&poses) {
@@ -253,9 +258,45 @@ impl Scribe<'_> {
         Some(())
     }
 
-    /// Lets go, and the way of the hand afterwards.
+    /// When the hand last was clear of where it is at `time`; the routine begins there.
+    fn begin_near(&mut self, time: f64) -> Option<f64> {
+        let there = self.shown.tracks.hand(self.hand, time)?.translation.vector;
+        let back = (1..).map(|step| time - f64::from(step) * STEP);
+        let begin = back.take_while(|at| *at >= time - LONGEST).find(|at| {
+            let hand = self.shown.tracks.hand(self.hand, *at);
+            hand.is_some_and(|hand| (hand.translation.vector - there).norm() >= CLEAR)
+        });
+        self.begin = begin.unwrap_or((time - LONGEST).max(0.0));
+        Some(self.begin)
+    }
+
+    /// When the hand last was clear of where it is at `time` and as high as it gets on its way there; the routine begins there.
+    fn begin_high(&mut self, from: f64, time: f64) -> Option<f64> {
+        let there = self.shown.tracks.hand(self.hand, time)?.translation.vector;
+        let steps = ((time - from).clamp(STEP, LONGEST) / STEP).ceil() as u32;
+        let way: Vec<(f64, Vector3<f64>)> = (1..=steps)
+            .map(|step| time - f64::from(step) * STEP)
+            .filter_map(|at| Some((at, self.shown.tracks.hand(self.hand, at)?.translation.vector)))
+            .collect();
+        let peak = way.iter().map(|(_, place)| place.z).reduce(f64::max)?;
+        let high = |place: &Vector3<f64>| place.z - there.z >= 0.8 * (peak - there.z);
+        let begin = way
+            .iter()
+            .find(|(_, place)| high(place) && (place - there).norm() >= CLEAR.min(peak - there.z));
+        self.begin = begin.or(way.last()).map(|(at, _)| *at)?;
+        Some(self.begin)
+    }
+
+    /// Lets go, and the way of the hand until it is clear.
     fn away(&mut self, from: f64, base: Isometry3<f64>, anchor: Anchor) -> Option<()> {
-        let poses = samples(from, from + RETREAT, |time| self.shown.tracks.hand(self.hand, time))?;
+        let there = self.shown.tracks.hand(self.hand, from)?.translation.vector;
+        let steps = (1..).map(|step| from + f64::from(step) * STEP);
+        let end = steps.take_while(|at| *at <= from + LONGEST).find(|at| {
+            let hand = self.shown.tracks.hand(self.hand, *at);
+            hand.is_some_and(|hand| (hand.translation.vector - there).norm() >= CLEAR)
+        });
+        let end = end.unwrap_or(from + 10.0 * STEP);
+        let poses = samples(from, end, |time| self.shown.tracks.hand(self.hand, time))?;
         for (time, pose) in simplified(&poses) {
             self.point(time, base, pose, anchor, None, Some(false));
         }
