@@ -22,8 +22,8 @@ struct Move {
     to: Option<VariableId>,
 }
 
-/// The names of the new actions, each with the one that it refines.
-pub type Constrained = Vec<(String, String)>;
+/// The names of the new actions, each with the one that it refines, and whether it follows another agent to a place.
+pub type Constrained = Vec<(String, String, bool)>;
 
 /// Replaces the moves to shared places. `at` is the predicate that says where who acts is, and `reachable` the one that says who gets where.
 pub fn constrain(domain: &mut Domain, style: &mut Style, at: &str, reachable: &str) -> Constrained {
@@ -53,8 +53,8 @@ pub fn constrain(domain: &mut Domain, style: &mut Style, at: &str, reachable: &s
         let to = one.to.expect("only moves that come to a place are here");
         let words = Words { at, reachable, to };
         let (first, second) = (firsts[place].action, seconds[place].action);
-        made.push((text(domain, first), text(domain, one.action)));
-        made.push((text(domain, second), text(domain, one.action)));
+        made.push((text(domain, first), text(domain, one.action), false));
+        made.push((text(domain, second), text(domain, one.action), true));
         // Nobody is there, and nobody else comes.
         let mut parts = vec![words.shared(domain, first, true)];
         parts.push(words.nobody(domain, first));

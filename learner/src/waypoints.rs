@@ -13,6 +13,9 @@ pub struct Routine {
     pub action: String,
     /// The names of its parameters, in their order; of a multi-agent action the agent is the first.
     pub parameters: Vec<String>,
+    /// The arguments with which it was shown, where that is known: what is done with others is done as with those that are most like them.
+    #[serde(default)]
+    pub shown: Vec<String>,
     /// The hands that take part.
     pub hands: Vec<Doer>,
     /// Where they come, in the order of their times.
@@ -66,6 +69,42 @@ pub enum Anchor {
     Hand(u32),
 }
 
+impl Routine {
+    /// The same for another action, in which all hands first rest for so long, in seconds.
+    #[must_use]
+    pub fn after(&self, action: &str, rest: f64) -> Self {
+        let later =
+            self.points.iter().map(|point| WayPoint { time: point.time + rest, ..point.clone() });
+        let rests = (0..self.hands.len() as u32).filter_map(|hand| {
+            let first = self.points.iter().find(|point| point.hand == hand)?;
+            let offset = Isometry3::identity();
+            Some(WayPoint {
+                hand,
+                carried: None,
+                anchor: Anchor::Hand(hand),
+                offset,
+                grip: first.grip,
+                time: rest,
+            })
+        });
+        Self { action: action.to_owned(), points: rests.chain(later).collect(), ..self.clone() }
+    }
+
+    /// Of all routines of an action the one that was shown with the most of these arguments; the first of several.
+    pub fn nearest<'r>(
+        routines: &'r [Routine],
+        action: &str,
+        arguments: &[String],
+    ) -> Option<&'r Routine> {
+        let alike = |routine: &Routine| {
+            let pairs = routine.shown.iter().zip(arguments);
+            pairs.filter(|(one, other)| one.eq_ignore_ascii_case(other)).count()
+        };
+        let same = routines.iter().filter(|routine| routine.action.eq_ignore_ascii_case(action));
+        same.rev().max_by_key(|routine| alike(routine))
+    }
+}
+
 fn write_pose<S: Serializer>(pose: &Isometry3<f64>, serializer: S) -> Result<S::Ok, S::Error> {
     let (place, turn) = (pose.translation, pose.rotation.quaternion());
     [place.x, place.y, place.z, turn.i, turn.j, turn.k, turn.w].serialize(serializer)
@@ -91,6 +130,7 @@ mod tests {
         let routine = Routine {
             action: "put-on".to_owned(),
             parameters: vec!["?above".to_owned(), "?below".to_owned()],
+            shown: Vec::new(),
             hands: vec![Doer::Any, Doer::Argument(0), Doer::Named("left-hand".to_owned())],
             points: vec![WayPoint {
                 hand: 0,

@@ -410,6 +410,9 @@ fn whole(
     (text, constrained)
 }
 
+/// Who follows another to a place waits so long until that one is gone, in seconds.
+const FOLLOW: f64 = 2.0;
+
 /// What came of demonstrations.
 struct Products<'a> {
     taught: &'a Taught,
@@ -482,9 +485,15 @@ fn write_beside(
             })
             .collect();
         let mut routines = routines(&shown, &taught.learned);
-        for (name, like) in constrained {
-            let same = routines.iter().find(|routine| routine.action == *like).cloned();
-            routines.extend(same.map(|same| Routine { action: name.clone(), ..same }));
+        let own = routines.clone();
+        for (name, like, follows) in constrained {
+            for same in own.iter().filter(|routine| routine.action == *like) {
+                routines.push(if *follows {
+                    same.after(name, FOLLOW)
+                } else {
+                    Routine { action: name.clone(), ..same.clone() }
+                });
+            }
         }
         if !routines.is_empty() {
             let text = serde_json::to_string_pretty(&routines).expect("way points are plain data");

@@ -139,8 +139,7 @@ impl Run {
         let mut parts = Vec::new();
         let mut taken = Vec::new();
         for step in steps {
-            let found =
-                routines.iter().find(|routine| routine.action.eq_ignore_ascii_case(&step.name));
+            let found = Routine::nearest(routines, &step.name, &step.arguments);
             let Some(routine) = found else {
                 self.story.push(format!("There are no way points for {}.", step.name));
                 return false;

@@ -24,6 +24,11 @@ const STEP: f64 = 1.0 / 30.0;
 const CLEAR: f64 = 0.14;
 const LONGEST: f64 = 3.0;
 
+/// So many routines of one action are kept.
+const MOST: usize = 32;
+/// Who leaves a place goes on until so far from it, in metres, for at most so long, in seconds.
+const GONE: (f64, f64) = (0.3, 1.5);
+
 /// What was let go lies where it will stay after so long, in seconds.
 const SETTLED: f64 = 0.5;
 
@@ -42,17 +47,20 @@ pub struct Shown<'a> {
     pub names_hands: bool,
 }
 
-/// A routine for each action that was learned, from the first demonstration in which its whole way was seen.
+/// Routines for each action that was learned: one for each choice of arguments with which its whole way was seen, up to [`MOST`].
 pub fn routines(shown: &[Shown<'_>], learned: &Learned) -> Vec<Routine> {
-    let mut routines = Vec::new();
+    let mut routines: Vec<Routine> = Vec::new();
     for action in &learned.actions {
-        let found = shown.iter().find_map(|one| {
-            let instances = one.line.instances.iter();
-            instances
-                .filter(|instance| instance.action == action.action)
-                .find_map(|instance| routine(one, learned, instance))
-        });
-        routines.extend(found);
+        let first = routines.len();
+        for one in shown {
+            for instance in one.line.instances.iter().filter(|one| one.action == action.action) {
+                let Some(routine) = routine(one, learned, instance) else { continue };
+                let known = routines[first..].iter().any(|other| other.shown == routine.shown);
+                if !known && routines.len() - first < MOST {
+                    routines.push(routine);
+                }
+            }
+        }
     }
     routines
 }
@@ -75,7 +83,7 @@ fn routine(shown: &Shown<'_>, learned: &Learned, instance: &Instance) -> Option<
         Verb::Take => {
             let object = deed.object?;
             let anchor = Anchor::Middle(of(object)?);
-            let base = shown.tracks.object(object, deed.from)?;
+            let base = shown.tracks.object(object, deed.at)?;
             let start = scribe.begin_near(deed.at)?;
             scribe.way(start, deed.at, base, anchor, false)?;
             scribe.way(deed.at, deed.to.max(deed.at + STEP), base, anchor, true)?;
@@ -84,7 +92,8 @@ fn routine(shown: &Shown<'_>, learned: &Learned, instance: &Instance) -> Option<
             let object = deed.object?;
             let (support, anchor) = support(shown, deed, &of)?;
             let size = shown.header.objects[support.index()].size;
-            let base = shown.tracks.object(support, deed.from)? * lifted(size.z / 2.0);
+            // The support may have been brought there meanwhile, by another hand.
+            let base = shown.tracks.object(support, deed.at)? * lifted(size.z / 2.0);
             let start = scribe.begin_high(deed.from, deed.at)?;
             scribe.carried(start, deed.at, object, of(object)?, base, anchor)?;
             scribe.away(deed.at, base, anchor)?;
@@ -92,8 +101,8 @@ fn routine(shown: &Shown<'_>, learned: &Learned, instance: &Instance) -> Option<
         Verb::Handle | Verb::Use | Verb::Push => {
             let object = deed.object?;
             let anchor = Anchor::Middle(of(object)?);
-            let base = shown.tracks.object(object, deed.from)?;
             let grip = shown.grip(deed.hand, object, deed);
+            let base = shown.tracks.object(object, grip.map_or(deed.from, |(from, _)| from))?;
             if let Some((from, to)) = grip {
                 let start = scribe.begin_near(from)?;
                 scribe.way(start, from, base, anchor, false)?;
@@ -115,10 +124,12 @@ fn routine(shown: &Shown<'_>, learned: &Learned, instance: &Instance) -> Option<
                     Thing::Object(object) => Some(object),
                     Thing::Hand(_) => None,
                 })?;
-            let base = shown.tracks.object(place, deed.from)?;
-            let pose = shown.tracks.hand(deed.hand, deed.to)?;
-            scribe.begin = deed.from.min(deed.to - STEP);
-            scribe.point(deed.to, base, pose, Anchor::Middle(of(place)?), None, None);
+            let base = shown.tracks.object(place, deed.at)?;
+            let leaves = deed.changes.last().is_some_and(|(_, holds)| !holds);
+            let end = if leaves { scribe.gone(deed.to, base) } else { deed.to };
+            let pose = shown.tracks.hand(deed.hand, end)?;
+            scribe.begin = deed.from.min(end - STEP);
+            scribe.point(end, base, pose, Anchor::Middle(of(place)?), None, None);
         }
         Verb::Hold => {
             scribe.points.push(WayPoint {
@@ -132,7 +143,14 @@ fn routine(shown: &Shown<'_>, learned: &Learned, instance: &Instance) -> Option<
         }
     }
     let points = scribe.points;
-    Some(Routine { action: action.name.text.clone(), parameters, hands: vec![doer], points })
+    let name = |id: &lang::model::ObjectId| shown.line.trace.objects[id.index()].name.text.clone();
+    Some(Routine {
+        action: action.name.text.clone(),
+        parameters,
+        shown: instance.arguments.iter().map(name).collect(),
+        hands: vec![doer],
+        points,
+    })
 }
 
 /// What a thing was put on or in, and from where its place is seen: a place, or else a thing; on a table anywhere that is free.
@@ -256,6 +274,25 @@ impl Scribe<'_> {
             self.point(time, base, pose, anchor, Some(argument), Some(true));
         }
         Some(())
+    }
+
+    /// When the hand is well away from a place that it leaves.
+    fn gone(&self, from: f64, place: Isometry3<f64>) -> f64 {
+        let (far, longest) = GONE;
+        let away = |time: f64| {
+            let hand = self.shown.tracks.hand(self.hand, time)?.translation.vector;
+            Some((hand - place.translation.vector).xy().norm())
+        };
+        let steps = (0..).map(|step| from + f64::from(step) * STEP);
+        let mut last = from;
+        for time in steps.take_while(|time| *time <= from + longest) {
+            let Some(distance) = away(time) else { break };
+            last = time;
+            if distance >= far {
+                break;
+            }
+        }
+        last
     }
 
     /// When the hand last was clear of where it is at `time`; the routine begins there.
