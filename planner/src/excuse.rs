@@ -50,11 +50,19 @@ pub struct Question {
     pub most_excuses: usize,
     /// Work for improving the plan of each excuse and for ranking.
     pub polish: u64,
+    /// Whether what a search failed on is looked for by abstraction first, which says most, and not only by looking at all states that were reached.
+    pub abstraction: bool,
 }
 
 impl Default for Question {
     fn default() -> Self {
-        Self { policy: Policy::default(), most_edits: 64, most_excuses: 10, polish: 2_000_000 }
+        Self {
+            policy: Policy::default(),
+            most_edits: 64,
+            most_excuses: 10,
+            polish: 2_000_000,
+            abstraction: true,
+        }
     }
 }
 

@@ -150,17 +150,21 @@ fn helpful(grounded: &Grounded) -> Vec<bool> {
 const TRIES: usize = 12;
 const SHARE: u64 = 2;
 
-/// Looks for a plan or a proof from `state`, the facts that hold, with as much work as `budget`.
+/// So much work an explanation gets in any case.
+const EXPLAIN: u64 = 1_000_000;
+
+/// Looks for a plan or a proof from `state`, the facts that hold, with as much work as `budget`; without `abstracts` only for a proof by [`explain`].
 pub fn decide(
     open: &Open,
     vocabulary: &Vocabulary,
     known: &Known,
     state: &[bool],
+    abstracts: bool,
     budget: u64,
     limits: &Limits,
 ) -> Verdict {
     let helps = &known.helps;
-    let mut search = Search { open, vocabulary, known, limits, only_explains: false };
+    let mut search = Search { open, vocabulary, known, limits, abstracts };
     let mut proof = match search.prove(state, budget) {
         Ok(proof) => proof,
         Err(verdict) => return verdict,
@@ -223,22 +227,23 @@ struct Search<'a> {
     vocabulary: &'a Vocabulary,
     known: &'a Known,
     limits: &'a Limits,
-    /// Whether abstraction was too much work before.
-    only_explains: bool,
+    /// Whether abstraction is tried: not where it was too much work before.
+    abstracts: bool,
 }
 
 impl Search<'_> {
     /// The facts that a proof looks at, by abstraction or else by explanation; or what came out instead.
     fn prove(&mut self, state: &[bool], budget: u64) -> Result<Vec<bool>, Verdict> {
-        if !self.only_explains {
+        if self.abstracts {
             match self.abstracted(state, budget / 2) {
-                Err(Verdict::Spent) => self.only_explains = true,
+                Err(Verdict::Spent) => self.abstracts = false,
                 other => return other,
             }
         }
         let (open, vocabulary) = (self.open, self.vocabulary);
         let mut tracked = Tracked { open, vocabulary, is: vec![false; open.count()] };
-        let explained = explain(&mut tracked, self.known, state, budget / 2, self.limits);
+        let budget = budget.max(EXPLAIN);
+        let explained = explain(&mut tracked, self.known, state, budget, self.limits);
         if explained { Ok(tracked.is) } else { Err(Verdict::Spent) }
     }
 
@@ -251,8 +256,8 @@ impl Search<'_> {
             if let Some(stop) = limits.stopped() {
                 return Err(Verdict::Stopped(stop));
             }
-            let projected = project(&tracked, state, &self.known.changed_by);
-            work += (projected.effects.len() + projected.literals.len()) as u64 + 1;
+            let (projected, scanned) = project(&tracked, state, &self.known.changed_by);
+            work += (projected.effects.len() + projected.literals.len()) as u64 + scanned + 1;
             let left = budget.saturating_sub(work);
             let plan = match plan(projected, &tracked, left, limits) {
                 Planned::Steps(steps, spent) => {
@@ -280,8 +285,9 @@ impl Search<'_> {
 /// What an effect needs, and what it does.
 type Conditional = (Vec<Literal>, Literal);
 
-/// The problem in which nothing but the tracked facts exists. Operators that come to the same are one; the action of each is the number of one that it stands for.
-fn project(tracked: &Tracked<'_>, state: &[bool], changed_by: &Lists) -> Grounded {
+/// The problem in which nothing but the tracked facts exists. Operators that come to the same are one; the action of each is the number of one that it
+/// stands for. The second part of the result is how many operators were looked at.
+fn project(tracked: &Tracked<'_>, state: &[bool], changed_by: &Lists) -> (Grounded, u64) {
     let open = tracked.open;
     let from = &open.grounded;
     let mut new = vec![NONE; from.facts.len()];
@@ -304,6 +310,7 @@ fn project(tracked: &Tracked<'_>, state: &[bool], changed_by: &Lists) -> Grounde
         .collect();
     changing.sort_unstable();
     changing.dedup();
+    let scanned = changing.len() as u64;
     for number in changing {
         let operator = &from.operators[number as usize];
         let own = tracked.own(operator);
@@ -359,7 +366,7 @@ fn project(tracked: &Tracked<'_>, state: &[bool], changed_by: &Lists) -> Grounde
     }
     let goal: Vec<Literal> = open.demanded(&from.goal, &[]).collect();
     to.goal = tracked.all(&goal).map(rename).collect();
-    to
+    (to, scanned)
 }
 
 fn push(pool: &mut Vec<Literal>, literals: Vec<Literal>) -> std::ops::Range<u32> {

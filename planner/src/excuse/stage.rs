@@ -375,8 +375,10 @@ impl<'a> Stage<'a> {
         // are found.
         let budget = proof.map_or(budget / 4, |work| budget.min(4 * work + self.patience));
         let known = self.known.get_or_insert_with(|| project::Known::new(&self.open.grounded));
-        let Asked { limits, .. } = self.asked;
-        let verdict = project::decide(self.open, self.vocabulary, known, state, budget, limits);
+        let Asked { question, limits, .. } = self.asked;
+        let abstracts = question.abstraction;
+        let verdict =
+            project::decide(self.open, self.vocabulary, known, state, abstracts, budget, limits);
         if proof.is_some() {
             let says_more = matches!(&verdict, project::Verdict::Unsolvable(clause)
                 if clause.len() * 2 < self.differs(edits).len());
