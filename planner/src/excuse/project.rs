@@ -232,11 +232,14 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The facts that a proof looks at, by abstraction or else by explanation; or what came out instead.
+    /// The facts that a proof looks at, by abstraction or else by explanation; or what came out instead. Where there are axioms, abstraction takes in
+    /// whatever they might depend on, so that an explanation may say more: the proof that looks at fewer facts is taken.
     fn prove(&mut self, state: &[bool], budget: u64) -> Result<Vec<bool>, Verdict> {
+        let mut proof = None;
         if self.abstracts {
             match self.abstracted(state, budget / 2) {
                 Err(Verdict::Spent) => self.abstracts = false,
+                Ok(facts) if !self.open.grounded.axioms.is_empty() => proof = Some(facts),
                 other => return other,
             }
         }
@@ -244,7 +247,14 @@ impl Search<'_> {
         let mut tracked = Tracked { open, vocabulary, is: vec![false; open.count()] };
         let budget = budget.max(EXPLAIN);
         let explained = explain(&mut tracked, self.known, state, budget, self.limits);
-        if explained { Ok(tracked.is) } else { Err(Verdict::Spent) }
+        let size = |facts: &[bool]| {
+            (0..facts.len()).filter(|&fact| facts[fact] && vocabulary.homes[fact] != NONE).count()
+        };
+        match proof {
+            Some(facts) if !explained || size(&facts) <= size(&tracked.is) => Ok(facts),
+            _ if explained => Ok(tracked.is),
+            _ => Err(Verdict::Spent),
+        }
     }
 
     /// The facts that a proof looks at which begins without any and takes in those that plans fail on.
