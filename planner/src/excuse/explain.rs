@@ -100,7 +100,7 @@ pub(super) fn explain(
 struct Rules<'a> {
     open: &'a Open,
     /// Heads and bodies, those of lower layers first.
-    rules: Vec<(FactId, Cow<'a, [Literal]>)>,
+    list: Vec<(FactId, Cow<'a, [Literal]>)>,
     /// Where each layer ends.
     ends: Vec<usize>,
     /// For each derived fact its rules.
@@ -149,7 +149,7 @@ impl<'a> Rules<'a> {
                 ends.push(number + 1);
             }
         }
-        Self { open, rules, ends, of }
+        Self { open, list: rules, ends, of }
     }
 
     /// Makes true in a state what follows.
@@ -158,7 +158,7 @@ impl<'a> Rules<'a> {
         for &end in &self.ends {
             loop {
                 let mut changed = false;
-                for (head, body) in &self.rules[start..end] {
+                for (head, body) in &self.list[start..end] {
                     let true_head = Literal { fact: *head, positive: true };
                     if !holds(state, true_head) && body.iter().all(|&one| holds(state, one)) {
                         state[head.index() / 64] |= 1 << (head.index() % 64);
@@ -194,11 +194,11 @@ impl<'a> Rules<'a> {
             if !derived.insert(fact) {
                 continue;
             }
-            let rules = self.of.get(&fact).into_iter().flatten().map(|&rule| &self.rules[rule].1);
+            let rules = self.of.get(&fact).into_iter().flatten().map(|&rule| &self.list[rule].1);
             if holds(state, Literal { fact, positive: true }) {
                 let order = order.get_or_insert_with(|| self.order(state));
                 let rule = order.get(&fact).expect("what holds was derived");
-                stack.extend(self.rules[*rule].1.iter().map(|literal| literal.fact));
+                stack.extend(self.list[*rule].1.iter().map(|literal| literal.fact));
                 continue;
             }
             for body in rules {
@@ -227,7 +227,7 @@ impl<'a> Rules<'a> {
         };
         loop {
             let before = first.len();
-            for (number, (head, body)) in self.rules.iter().enumerate() {
+            for (number, (head, body)) in self.list.iter().enumerate() {
                 if !first.contains_key(head) && body.iter().all(|one| holds_before(one, &first)) {
                     first.insert(*head, number);
                 }
