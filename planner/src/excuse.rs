@@ -14,6 +14,8 @@ mod presume;
 mod relaxed;
 mod hitting;
 mod project;
+mod explain;
+mod normality;
 mod stage;
 mod rank;
 mod export;
@@ -48,11 +50,19 @@ pub struct Question {
     pub most_excuses: usize,
     /// Work for improving the plan of each excuse and for ranking.
     pub polish: u64,
+    /// Whether what a search failed on is looked for by abstraction first, which says most, and not only by looking at all states that were reached.
+    pub abstraction: bool,
 }
 
 impl Default for Question {
     fn default() -> Self {
-        Self { policy: Policy::default(), most_edits: 64, most_excuses: 10, polish: 2_000_000 }
+        Self {
+            policy: Policy::default(),
+            most_edits: 64,
+            most_excuses: 10,
+            polish: 2_000_000,
+            abstraction: true,
+        }
     }
 }
 
@@ -301,7 +311,13 @@ impl Run<'_> {
         let vocabulary = Vocabulary::new(&open, domain, invariants, policy);
         self.presumed |= vocabulary.groups.iter().any(|group| group.origin == Origin::Presumed);
         let mut refuted = std::mem::take(&mut self.refuted);
-        let mut stage = Stage::new(self.asked, &open, &vocabulary, &mut refuted, self.unsolvable);
+        let oddness = normality::oddness(&open, domain, &vocabulary);
+        let begun =
+            Stage::new(self.asked, &open, &vocabulary, &oddness, &mut refuted, self.unsolvable);
+        let mut stage = match begun {
+            Ok(stage) => stage,
+            Err(stop) => return Ok(Some(self.end(Unfinished::Stopped(stop)))),
+        };
         let known = self.best.as_ref().map_or(u32::MAX, |(best, _)| best.cost);
         // Where nothing was left out, the bound means nothing.
         let whole = last && !open.narrow;

@@ -46,7 +46,7 @@ pub fn ground(
     normal: &Normal,
     limits: &Limits,
 ) -> Result<Outcome, Interrupted> {
-    let shut = Open { facts: &[], prices: &[], purse: 0 };
+    let shut = Open { facts: &[], prices: &[], objects: (u32::MAX, 0), purse: 0 };
     let Some((mut grounded, exact, _)) = instantiate(domain, problem, normal, &shut, limits)?
     else {
         return Ok(Outcome::Unsolvable);
@@ -64,7 +64,9 @@ pub struct Open<'a> {
     pub facts: &'a [Fact],
     /// What a fact of each predicate costs that does not hold initially, for predicates that no action changes; nothing for those behind the last.
     pub prices: &'a [u32],
-    /// Instances of actions and axioms whose conditions cost more are left out.
+    /// Objects from this one on may exist or not, and cost so much each.
+    pub objects: (u32, u32),
+    /// Instances of actions and axioms whose conditions and objects cost more are left out.
     pub purse: u32,
 }
 
@@ -118,10 +120,13 @@ fn instantiate(
         relation.charge(price);
     }
     insert(open.facts, &mut relations);
-    let mut reach = reach::reach(normal, &world, relations, open.purse, limits)
+    let purse = join::Purse::new(open.purse, open.objects);
+    let mut reach = reach::reach(normal, &world, relations, purse, limits)
         .map_err(interrupted("finding reachable facts"))?;
     let relations = std::mem::take(&mut reach.relations);
-    let mut emission = emit::Emission::new(normal, problem, &world, limits, relations, &initial);
+    let opened = !open.prices.is_empty();
+    let mut emission =
+        emit::Emission::new(normal, problem, &world, limits, relations, &initial, opened);
     let reachable = emission.run(&reach).map_err(interrupted("writing operators"))?;
     let grounded = emission.grounded;
     // The fixpoint took universal conditions as true, so less may be reachable than it found.

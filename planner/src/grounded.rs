@@ -42,6 +42,8 @@ pub struct Operator {
     pub action: ActionId,
     /// The objects for the action's parameters, a range of [`Grounded::arguments`].
     pub arguments: Range<u32>,
+    /// The objects for these and for the variables of existential conditions, another such range.
+    pub bound: Range<u32>,
     /// A range of [`Grounded::literals`], sorted, without repetitions.
     pub precondition: Range<u32>,
     /// A range of [`Grounded::effects`].
@@ -64,6 +66,8 @@ pub struct Effect {
 pub struct Axiom {
     /// A derived fact.
     pub head: FactId,
+    /// The objects for the variables of the rule, a range of [`Grounded::arguments`]; empty where nobody asks ([`crate::ground::ground_open`]).
+    pub bound: Range<u32>,
     /// A range of [`Grounded::literals`].
     pub conditions: Range<u32>,
 }

@@ -10,7 +10,7 @@ use crate::invariants;
 use crate::limits::{Limits, Stop};
 use crate::normal::Normal;
 use crate::normalize::{self, Unsupported};
-use crate::search::{self, Config, Status};
+use crate::search::{self, Config, Status, Strategy};
 
 /// A task, with what it was made from.
 #[derive(Debug)]
@@ -67,7 +67,8 @@ pub enum Answer {
     Stopped(Stop),
 }
 
-/// Looks for a plan with as much work as `budget` ([`search::run_in_turns`] says what work is); with `better`, goes on for cheaper ones until it is spent.
+/// Looks for a plan with as much work as `budget` ([`search::run_in_turns`] says what work is, [`weight`] what it is multiplied by here); with `better`,
+/// goes on for cheaper ones until it is spent. Otherwise half of the budget is for a search by novelty, where it is bounded and the first search finds nothing.
 ///
 /// # Errors
 /// What the planner does not plan.
@@ -84,19 +85,42 @@ pub fn solve(
         Err(Obstacle::Unreachable) => return Ok(Answer::Unsolvable(0)),
         Err(Obstacle::Stopped(stop, _)) => return Ok(Answer::Stopped(stop)),
     };
-    let config = Config { anytime: better, ..Config::default() };
-    let mut best = None;
-    let mut keep = |operators: &[_], _| best = Some(operators.to_vec());
+    let weight = weight(&prepared.grounded);
+    let ways: &[Strategy] = if better || budget == u64::MAX {
+        &[Strategy::First]
+    } else {
+        &[Strategy::First, Strategy::Novelty]
+    };
+    let share = budget / ways.len() as u64 / weight;
     let task = &prepared.encoded.task;
-    let end = search::run_in_turns(task, &config, limits, &mut keep, budget, &mut || None);
-    Ok(match (best, end.status) {
-        (Some(operators), _) => {
-            Answer::Plan(prepared.encoded.decoder(prepared.grounded).plan(&operators))
-        }
-        (None, Status::Unsolvable) => {
-            Answer::Unsolvable(end.statistics.expanded * (task.operators.len() as u64 + 1))
-        }
-        (None, Status::Stopped(stop)) => Answer::Stopped(stop),
-        (None, _) => Answer::Spent,
-    })
+    let mut answer = Answer::Spent;
+    for &strategy in ways {
+        let config = Config { anytime: better, strategy, ..Config::default() };
+        let mut best = None;
+        let mut keep = |operators: &[_], _| best = Some(operators.to_vec());
+        let end = search::run_in_turns(task, &config, limits, &mut keep, share, &mut || None);
+        answer = match (best, end.status) {
+            (Some(operators), _) => {
+                let decoder = prepared.encoded.decoder(prepared.grounded);
+                return Ok(Answer::Plan(decoder.plan(&operators)));
+            }
+            (None, Status::Unsolvable) => {
+                let size = task.operators.len() as u64 + 1;
+                Answer::Unsolvable(end.statistics.expanded * size * weight)
+            }
+            (None, Status::Stopped(stop)) => Answer::Stopped(stop),
+            (None, _) => continue,
+        };
+        break;
+    }
+    Ok(answer)
+}
+
+/// So many effects and literals a usual operator has.
+const USUAL: usize = 16;
+
+/// How much more work the operators of a ground problem are than usual ones.
+pub fn weight(grounded: &Grounded) -> u64 {
+    let size = grounded.effects.len() + grounded.literals.len();
+    (size / (grounded.operators.len() + 1) / USUAL).max(1) as u64
 }

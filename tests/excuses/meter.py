@@ -22,6 +22,8 @@ BENCH = ROOT / "target/bench"
 CAVEAT = Path(os.environ.get("CAVEAT") or ROOT / "target/release/caveat")
 # The driver of Fast Downward, or nothing.
 PEER = os.environ.get("FAST_DOWNWARD")
+# How many times its CPU time a process may take on the clock: more where the machine has much else to do.
+PATIENCE = float(os.environ.get("CAVEAT_PATIENCE", "2"))
 # What the program under test is told about memory, and the bytes of address space that no process may exceed: far more, for it is
 # the program that should keep its limit.
 MEMORY, BYTES = "6G", 16 << 30
@@ -43,7 +45,7 @@ class Run:
 
 
 def run(command, seconds, folder):
-    """Runs a command in a folder. Seconds are of CPU time for each of its processes, and twice that of wall clock and 10 s for all."""
+    """Runs a command in a folder. Seconds are of CPU time for each of its processes, and PATIENCE times that of wall clock and 10 s for all."""
     seconds = max(1, int(seconds + 0.999))
 
     def limit():
@@ -60,7 +62,7 @@ def run(command, seconds, folder):
             late.set()
             kill(process.pid)
 
-        timer = threading.Timer(2 * seconds + 10, stop)
+        timer = threading.Timer(PATIENCE * seconds + 10, stop)
         timer.start()
         try:
             _, status, usage = os.wait4(process.pid, 0)

@@ -7,6 +7,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use super::normality::{self, Oddness};
 use super::relaxed::number;
 use super::vocabulary::{NONE, Vocabulary};
 use crate::grounded::FactId;
@@ -58,6 +59,8 @@ pub struct Hitting<'a> {
     nodes: Vec<Node>,
     open: BinaryHeap<Reverse<Key>>,
     most_edits: usize,
+    /// How odd each edit is.
+    oddness: &'a [Oddness],
     /// Which variables a node has decided, and with which edit; only while it is looked at.
     decided: Vec<u32>,
     forbidden: Vec<bool>,
@@ -66,20 +69,21 @@ pub struct Hitting<'a> {
     round: u32,
 }
 
-/// Lowest bound first; then what was tried less; then what has more edits; then what came last.
-type Key = (u32, u32, Reverse<u32>, Reverse<u32>);
+/// Lowest bound first; then what was tried less; then what is less odd; then what has more edits; then what came last.
+type Key = (u32, u32, i32, Reverse<u32>, Reverse<u32>);
 
 impl<'a> Hitting<'a> {
     /// Begins with no edits and no clauses. No set has more than `most_edits`.
-    pub fn new(vocabulary: &'a Vocabulary, most_edits: usize) -> Self {
+    pub fn new(vocabulary: &'a Vocabulary, most_edits: usize, oddness: &'a [Oddness]) -> Self {
         let root =
             Node { parent: NONE, edit: NONE, cost: 0, position: 0, branches: Box::default() };
         Self {
             vocabulary,
             clauses: Vec::new(),
             nodes: vec![root],
-            open: BinaryHeap::from([Reverse((0, 0, Reverse(0), Reverse(0)))]),
+            open: BinaryHeap::from([Reverse((0, 0, 0, Reverse(0), Reverse(0)))]),
             most_edits,
+            oddness,
             decided: vec![NONE; vocabulary.variables.len()],
             forbidden: vec![false; vocabulary.edits.len()],
             rest: vec![(0, 0); vocabulary.edits.len()],
@@ -99,12 +103,13 @@ impl<'a> Hitting<'a> {
 
     /// Puts a set back that could not be judged yet; it is next when those are done that were tried less.
     pub fn postpone(&mut self, node: NodeId, cost: u32, tried: u32, edits: usize) {
-        self.open.push(Reverse((cost, tried, Reverse(edits as u32), Reverse(node.0))));
+        let odd = normality::of(self.oddness, &self.chosen(node.0));
+        self.open.push(Reverse((cost, tried, odd, Reverse(edits as u32), Reverse(node.0))));
     }
 
     /// The next set that satisfies all clauses and costs `most` at most; with how often it was tried before.
     pub fn next(&mut self, most: u32, limits: &Limits) -> (Next, u32) {
-        while let Some(&Reverse((bound, tried, edits, Reverse(id)))) = self.open.peek() {
+        while let Some(&Reverse((bound, tried, odd, edits, Reverse(id)))) = self.open.peek() {
             if bound > most {
                 break;
             }
@@ -123,9 +128,9 @@ impl<'a> Hitting<'a> {
                 Look::Broken { more, branches } => {
                     let bound = cost.saturating_add(more);
                     if bound > look_again {
-                        self.open.push(Reverse((bound, tried, edits, Reverse(id))));
+                        self.open.push(Reverse((bound, tried, odd, edits, Reverse(id))));
                     } else if chosen.len() < self.most_edits {
-                        self.branch(id, branches, bound);
+                        self.branch(id, &chosen, branches, bound);
                     }
                     None
                 }
@@ -172,8 +177,9 @@ impl<'a> Hitting<'a> {
         self.open.peek().map(|Reverse(key)| key.0)
     }
 
-    fn branch(&mut self, id: u32, branches: Vec<u32>, bound: u32) {
-        let (parent_cost, depth) = (self.nodes[id as usize].cost, self.chosen(id).len() as u32 + 1);
+    fn branch(&mut self, id: u32, chosen: &[u32], branches: Vec<u32>, bound: u32) {
+        let (parent_cost, depth) = (self.nodes[id as usize].cost, chosen.len() as u32 + 1);
+        let mut set = chosen.to_vec();
         // The last pushed is the first to be looked at among equals.
         for (position, &edit) in branches.iter().enumerate().rev() {
             let cost = parent_cost.saturating_add(self.vocabulary.edits[edit as usize].cost);
@@ -185,7 +191,10 @@ impl<'a> Hitting<'a> {
                 position: position as u32,
                 branches: Box::default(),
             });
-            self.open.push(Reverse((cost.max(bound), 0, Reverse(depth), Reverse(number))));
+            set.push(edit);
+            let odd = normality::of(self.oddness, &set);
+            set.pop();
+            self.open.push(Reverse((cost.max(bound), 0, odd, Reverse(depth), Reverse(number))));
         }
         self.nodes[id as usize].branches = branches.into();
     }

@@ -117,15 +117,32 @@ impl Open {
         opened.extend(&editable);
         let normal =
             normalize::normalize_open(domain, &problem, &opened).map_err(Obstacle::Unsupported)?;
-        let facts = facts(domain, &problem, &normal, &editable).ok_or(Obstacle::Large)?;
+        // A fact that is too dear with the objects that it needs is of no use.
+        let affordable = |predicate: PredicateId, arguments: &[ObjectId]| {
+            let mut new: Vec<ObjectId> =
+                arguments.iter().copied().filter(|object| object.0 >= first_new).collect();
+            new.sort_unstable();
+            new.dedup();
+            let price = prices[predicate.index()].unwrap_or(0);
+            let objects = policy.object_cost.saturating_mul(new.len() as u32);
+            price.saturating_add(objects) <= bound
+        };
+        let (facts, dropped) =
+            facts(domain, &problem, &normal, &editable, &affordable).ok_or(Obstacle::Large)?;
         // What some action changes may come about by itself, so that only what none changes has a price.
         let charged = |number: usize| prices[number].filter(|_| !changes[number]).unwrap_or(0);
         let charged: Vec<u32> = (0..prices.len()).map(charged).collect();
-        let choice = ground::Open { facts: &facts, prices: &charged, purse: bound };
+        let new = if objects.is_empty() { u32::MAX } else { first_new };
+        let choice = ground::Open {
+            facts: &facts,
+            prices: &charged,
+            objects: (new, policy.object_cost),
+            purse: bound,
+        };
         let (grounded, narrow) =
             match ground::ground_open(domain, &problem, &normal, &choice, limits) {
-                Ok((Some(grounded), narrow)) => (grounded, narrow),
-                Ok((None, narrow)) => return Err(Obstacle::Hopeless { narrow }),
+                Ok((Some(grounded), narrow)) => (grounded, narrow || dropped),
+                Ok((None, narrow)) => return Err(Obstacle::Hopeless { narrow: narrow || dropped }),
                 Err(Interrupted { stop, .. }) => return Err(Obstacle::Stopped(stop)),
             };
         let mut initial = grounded.initial.clone();
@@ -163,6 +180,11 @@ impl Open {
     /// The arguments of a fact.
     pub fn arguments(&self, fact: FactId) -> &[ObjectId] {
         let range = &self.grounded.facts[fact.index()].arguments;
+        &self.grounded.arguments[range.start as usize..range.end as usize]
+    }
+
+    /// The objects in a range of those of the ground problem.
+    pub fn bound(&self, range: &std::ops::Range<u32>) -> &[ObjectId] {
         &self.grounded.arguments[range.start as usize..range.end as usize]
     }
 
@@ -298,15 +320,18 @@ fn lock_goal(grounded: &Grounded, predicates: usize, locked: &mut [bool]) {
     }
 }
 
-/// All facts of the predicates `open` whose objects fit what the actions, the rules, the goal and the initial state put there; none if there are too many.
+/// All facts of the predicates `open` whose objects fit what the actions, the rules, the goal and the initial state put there, as far as they are
+/// `affordable`, and whether some are not; none if there are too many.
 fn facts(
     domain: &Domain,
     problem: &Problem,
     normal: &Normal,
     open: &[PredicateId],
-) -> Option<Vec<model::Fact>> {
+    affordable: &dyn Fn(PredicateId, &[ObjectId]) -> bool,
+) -> Option<(Vec<model::Fact>, bool)> {
     let sorts = sorts(domain, problem, normal);
     let mut facts = Vec::new();
+    let mut dropped = false;
     for &predicate in open {
         let columns: Vec<Vec<ObjectId>> = domain.predicates[predicate.index()]
             .parameters
@@ -326,9 +351,13 @@ fn facts(
         }
         let mut row = vec![0; columns.len()];
         for _ in 0..count {
-            let arguments =
+            let arguments: Box<[ObjectId]> =
                 row.iter().zip(&columns).map(|(&at, column): (&usize, _)| column[at]).collect();
-            facts.push(model::Fact { predicate, arguments });
+            if affordable(predicate, &arguments) {
+                facts.push(model::Fact { predicate, arguments });
+            } else {
+                dropped = true;
+            }
             for (at, column) in row.iter_mut().zip(&columns).rev() {
                 *at += 1;
                 if *at < column.len() {
@@ -338,7 +367,7 @@ fn facts(
             }
         }
     }
-    Some(facts)
+    Some((facts, dropped))
 }
 
 /// For each argument of each predicate the objects that something may put there: by the types of variables and by static facts about one object, which in

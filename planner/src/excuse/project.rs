@@ -9,8 +9,9 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::explain::explain;
 use super::open::Open;
-use super::relaxed::number;
+use super::relaxed::{Lists, number};
 use super::vocabulary::{NONE, Vocabulary};
 use lang::model::{ActionId, ObjectId, PredicateId};
 
@@ -19,6 +20,7 @@ use crate::ground;
 use crate::grounded::{Axiom, Effect, FactId, Grounded, Literal, Operator};
 use crate::limits::{Limits, Stop};
 use crate::search::{self, Config, Status};
+use crate::solve;
 
 /// What came out.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,15 +36,15 @@ pub enum Verdict {
 }
 
 /// Which facts are tracked.
-struct Tracked<'a> {
-    open: &'a Open,
-    vocabulary: &'a Vocabulary,
-    is: Vec<bool>,
+pub(super) struct Tracked<'a> {
+    pub(super) open: &'a Open,
+    pub(super) vocabulary: &'a Vocabulary,
+    pub(super) is: Vec<bool>,
 }
 
 impl Tracked<'_> {
     /// Tracks a fact with its variable and with all that decides when it changes.
-    fn add(&mut self, fact: FactId, conditions: &Conditions) {
+    pub(super) fn add(&mut self, fact: FactId, conditions: &FxHashMap<FactId, Vec<FactId>>) {
         let mut stack = vec![fact];
         while let Some(fact) = stack.pop() {
             if std::mem::replace(&mut self.is[fact.index()], true) {
@@ -52,7 +54,7 @@ impl Tracked<'_> {
             if home != NONE {
                 stack.extend(&self.vocabulary.variables[home as usize].facts);
             }
-            stack.extend(conditions.of.get(&fact).into_iter().flatten());
+            stack.extend(conditions.get(&fact).into_iter().flatten());
         }
     }
 
@@ -61,19 +63,24 @@ impl Tracked<'_> {
     }
 
     fn own(&self, operator: &Operator) -> &[ObjectId] {
-        let range = operator.arguments.start as usize..operator.arguments.end as usize;
-        &self.open.grounded.arguments[range]
+        self.open.bound(&operator.bound)
     }
 }
 
-/// For each fact that changes under a condition, or is derived, the facts that decide it.
-struct Conditions {
-    of: FxHashMap<FactId, Vec<FactId>>,
+/// What every proof needs to know of an open problem.
+pub struct Known {
+    /// Which facts help whenever they hold.
+    helps: Vec<bool>,
+    /// For each fact that changes under a condition, or is derived, the facts that decide it.
+    pub(super) conditions: FxHashMap<FactId, Vec<FactId>>,
+    /// For each fact the operators that change it.
+    changed_by: Lists,
 }
 
-impl Conditions {
-    fn new(grounded: &Grounded) -> Self {
-        let mut of: FxHashMap<FactId, Vec<FactId>> = FxHashMap::default();
+impl Known {
+    /// What there is to know of a ground problem.
+    pub fn new(grounded: &Grounded) -> Self {
+        let mut conditions: FxHashMap<FactId, Vec<FactId>> = FxHashMap::default();
         let facts = |range: &std::ops::Range<u32>| {
             grounded.literals[range.start as usize..range.end as usize]
                 .iter()
@@ -81,21 +88,30 @@ impl Conditions {
                 .collect::<Vec<_>>()
         };
         for effect in grounded.effects.iter().filter(|effect| !effect.conditions.is_empty()) {
-            of.entry(effect.literal.fact).or_default().extend(facts(&effect.conditions));
+            conditions.entry(effect.literal.fact).or_default().extend(facts(&effect.conditions));
         }
         for axiom in &grounded.axioms {
-            of.entry(axiom.head).or_default().extend(facts(&axiom.conditions));
+            conditions.entry(axiom.head).or_default().extend(facts(&axiom.conditions));
         }
-        for facts in of.values_mut() {
+        for facts in conditions.values_mut() {
             facts.sort_unstable();
             facts.dedup();
         }
-        Self { of }
+        let mut changes = Lists::begin();
+        let mut list = Vec::new();
+        for operator in &grounded.operators {
+            let range = operator.effects.start as usize..operator.effects.end as usize;
+            list.clear();
+            list.extend(grounded.effects[range].iter().map(|effect| effect.literal.fact.0));
+            changes.push(&mut list);
+        }
+        let changed_by = changes.turned(grounded.facts.len());
+        Self { helps: helpful(grounded), conditions, changed_by }
     }
 }
 
 /// Which facts help whenever they hold: no condition asks for them to be false, and nothing is lost because of them.
-pub fn helpful(grounded: &Grounded) -> Vec<bool> {
+fn helpful(grounded: &Grounded) -> Vec<bool> {
     let mut helps = vec![true; grounded.facts.len()];
     let slice =
         |range: &std::ops::Range<u32>| &grounded.literals[range.start as usize..range.end as usize];
@@ -134,16 +150,21 @@ pub fn helpful(grounded: &Grounded) -> Vec<bool> {
 const TRIES: usize = 12;
 const SHARE: u64 = 2;
 
-/// Looks for a plan or a proof from `state`, the facts that hold, with as much work as `budget`. `helps` is [`helpful`].
+/// So much work an explanation gets in any case.
+const EXPLAIN: u64 = 1_000_000;
+
+/// Looks for a plan or a proof from `state`, the facts that hold, with as much work as `budget`; without `abstracts` only for a proof by [`explain`].
 pub fn decide(
     open: &Open,
     vocabulary: &Vocabulary,
-    helps: &[bool],
+    known: &Known,
     state: &[bool],
+    abstracts: bool,
     budget: u64,
     limits: &Limits,
 ) -> Verdict {
-    let search = Search { open, vocabulary, conditions: Conditions::new(&open.grounded), limits };
+    let helps = &known.helps;
+    let mut search = Search { open, vocabulary, known, limits, abstracts };
     let mut proof = match search.prove(state, budget) {
         Ok(proof) => proof,
         Err(verdict) => return verdict,
@@ -204,13 +225,40 @@ fn clause(
 struct Search<'a> {
     open: &'a Open,
     vocabulary: &'a Vocabulary,
-    conditions: Conditions,
+    known: &'a Known,
     limits: &'a Limits,
+    /// Whether abstraction is tried: not where it was too much work before.
+    abstracts: bool,
 }
 
 impl Search<'_> {
-    /// The facts that a proof looks at; or what came out instead.
-    fn prove(&self, state: &[bool], budget: u64) -> Result<Vec<bool>, Verdict> {
+    /// The facts that a proof looks at, by abstraction or else by explanation; or what came out instead. Where there are axioms, abstraction takes in
+    /// whatever they might depend on, so that an explanation may say more: the proof that looks at fewer facts is taken.
+    fn prove(&mut self, state: &[bool], budget: u64) -> Result<Vec<bool>, Verdict> {
+        let mut proof = None;
+        if self.abstracts {
+            match self.abstracted(state, budget / 2) {
+                Err(Verdict::Spent) => self.abstracts = false,
+                Ok(facts) if !self.open.grounded.axioms.is_empty() => proof = Some(facts),
+                other => return other,
+            }
+        }
+        let (open, vocabulary) = (self.open, self.vocabulary);
+        let mut tracked = Tracked { open, vocabulary, is: vec![false; open.count()] };
+        let budget = budget.max(EXPLAIN);
+        let explained = explain(&mut tracked, self.known, state, budget, self.limits);
+        let size = |facts: &[bool]| {
+            (0..facts.len()).filter(|&fact| facts[fact] && vocabulary.homes[fact] != NONE).count()
+        };
+        match proof {
+            Some(facts) if !explained || size(&facts) <= size(&tracked.is) => Ok(facts),
+            _ if explained => Ok(tracked.is),
+            _ => Err(Verdict::Spent),
+        }
+    }
+
+    /// The facts that a proof looks at which begins without any and takes in those that plans fail on.
+    fn abstracted(&self, state: &[bool], budget: u64) -> Result<Vec<bool>, Verdict> {
         let (open, vocabulary, limits) = (self.open, self.vocabulary, self.limits);
         let mut tracked = Tracked { open, vocabulary, is: vec![false; open.count()] };
         let mut work = 0;
@@ -218,8 +266,8 @@ impl Search<'_> {
             if let Some(stop) = limits.stopped() {
                 return Err(Verdict::Stopped(stop));
             }
-            let projected = project(&tracked, state);
-            work += projected.effects.len() as u64 + 1;
+            let (projected, scanned) = project(&tracked, state, &self.known.changed_by);
+            work += (projected.effects.len() + projected.literals.len()) as u64 + scanned + 1;
             let left = budget.saturating_sub(work);
             let plan = match plan(projected, &tracked, left, limits) {
                 Planned::Steps(steps, spent) => {
@@ -235,7 +283,7 @@ impl Search<'_> {
                 return Err(Verdict::Solvable);
             }
             for fact in missing {
-                tracked.add(fact, &self.conditions);
+                tracked.add(fact, &self.known.conditions);
             }
             if work > budget {
                 return Err(Verdict::Spent);
@@ -247,8 +295,9 @@ impl Search<'_> {
 /// What an effect needs, and what it does.
 type Conditional = (Vec<Literal>, Literal);
 
-/// The problem in which nothing but the tracked facts exists. Operators that come to the same are one; the action of each is the number of one that it stands for.
-fn project(tracked: &Tracked<'_>, state: &[bool]) -> Grounded {
+/// The problem in which nothing but the tracked facts exists. Operators that come to the same are one; the action of each is the number of one that it
+/// stands for. The second part of the result is how many operators were looked at.
+fn project(tracked: &Tracked<'_>, state: &[bool], changed_by: &Lists) -> (Grounded, u64) {
     let open = tracked.open;
     let from = &open.grounded;
     let mut new = vec![NONE; from.facts.len()];
@@ -263,8 +312,17 @@ fn project(tracked: &Tracked<'_>, state: &[bool]) -> Grounded {
     let rename = |literal: Literal| Literal { fact: FactId(new[literal.fact.index()]), ..literal };
     let slice =
         |range: &std::ops::Range<u32>| &from.literals[range.start as usize..range.end as usize];
+    let exists = |&object: &u32| state[from.facts.len() + object as usize];
     let mut seen: FxHashSet<(Vec<Literal>, Vec<Conditional>)> = FxHashSet::default();
-    for (number, operator) in from.operators.iter().enumerate() {
+    let mut changing: Vec<u32> = (0..from.facts.len() as u32)
+        .filter(|&fact| tracked.is[fact as usize])
+        .flat_map(|fact| changed_by.of(fact).iter().copied())
+        .collect();
+    changing.sort_unstable();
+    changing.dedup();
+    let scanned = changing.len() as u64;
+    for number in changing {
+        let operator = &from.operators[number as usize];
         let own = tracked.own(operator);
         let effects: Vec<Conditional> = from.effects
             [operator.effects.start as usize..operator.effects.end as usize]
@@ -279,7 +337,6 @@ fn project(tracked: &Tracked<'_>, state: &[bool]) -> Grounded {
                 (conditions, rename(effect.literal))
             })
             .collect();
-        let exists = |&object: &u32| state[from.facts.len() + object as usize];
         if effects.is_empty() || !open.new_among(own).iter().all(exists) {
             continue;
         }
@@ -302,20 +359,24 @@ fn project(tracked: &Tracked<'_>, state: &[bool]) -> Grounded {
             effects: start..to.effects.len() as u32,
             cost: 1,
             // By this it is known again, whatever else becomes of it.
-            action: ActionId(number as u32),
+            action: ActionId(number),
             ..operator.clone()
         });
     }
     for axiom in from.axioms.iter().filter(|axiom| tracked.is[axiom.head.index()]) {
-        let own = open.arguments(axiom.head);
+        let own = open.bound(&axiom.bound);
+        if !open.new_among(own).iter().all(exists) {
+            continue;
+        }
         let conditions: Vec<Literal> =
             open.demanded(slice(&axiom.conditions), own).map(rename).collect();
         let conditions = push(&mut to.literals, conditions);
-        to.axioms.push(Axiom { head: FactId(new[axiom.head.index()]), conditions });
+        let head = FactId(new[axiom.head.index()]);
+        to.axioms.push(Axiom { head, bound: 0..0, conditions });
     }
     let goal: Vec<Literal> = open.demanded(&from.goal, &[]).collect();
     to.goal = tracked.all(&goal).map(rename).collect();
-    to
+    (to, scanned)
 }
 
 fn push(pool: &mut Vec<Literal>, literals: Vec<Literal>) -> std::ops::Range<u32> {
@@ -349,9 +410,11 @@ fn plan(mut projected: Grounded, tracked: &Tracked<'_>, budget: u64, limits: &Li
     let mut found = None;
     let mut keep = |steps: &[crate::task::OperatorId], _: u64| found = Some(steps.to_vec());
     let config = Config::default();
+    let weight = solve::weight(&projected);
+    let share = budget / weight;
     let outcome =
-        search::run_in_turns(&encoded.task, &config, limits, &mut keep, budget, &mut || None);
-    let spent = outcome.statistics.expanded * encoded.task.operators.len() as u64;
+        search::run_in_turns(&encoded.task, &config, limits, &mut keep, share, &mut || None);
+    let spent = outcome.statistics.expanded * encoded.task.operators.len() as u64 * weight;
     match (found, outcome.status) {
         (Some(steps), _) => {
             let origin = |step: &crate::task::OperatorId| {

@@ -14,28 +14,52 @@ pub fn number(fact: FactId, positive: bool) -> u32 {
 
 /// A list of lists.
 #[derive(Debug, Default)]
-struct Lists {
+pub struct Lists {
     starts: Vec<u32>,
     items: Vec<u32>,
 }
 
 impl Lists {
-    /// The lists of the second numbers by the first, of which there are `count`.
-    fn new(count: usize, mut pairs: Vec<(u32, u32)>) -> Self {
-        pairs.sort_unstable();
-        pairs.dedup();
-        let mut starts = vec![0; count + 1];
-        for &(key, _) in &pairs {
-            starts[key as usize + 1] += 1;
-        }
-        for key in 0..count {
-            starts[key + 1] += starts[key];
-        }
-        Self { starts, items: pairs.into_iter().map(|(_, item)| item).collect() }
+    /// No lists yet.
+    pub fn begin() -> Self {
+        Self { starts: vec![0], items: Vec::new() }
     }
 
+    /// Adds a list; its items come out sorted, each once.
+    pub fn push(&mut self, list: &mut Vec<u32>) {
+        list.sort_unstable();
+        list.dedup();
+        self.items.extend_from_slice(list);
+        self.starts.push(self.items.len() as u32);
+    }
+
+    fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// For each of `count` items the lists that it is in.
+    pub fn turned(&self, count: usize) -> Self {
+        let mut starts = vec![0_u32; count + 1];
+        for &item in &self.items {
+            starts[item as usize + 1] += 1;
+        }
+        for item in 0..count {
+            starts[item + 1] += starts[item];
+        }
+        let mut next = starts.clone();
+        let mut items = vec![0; self.items.len()];
+        for list in 0..self.len() as u32 {
+            for &item in self.of(list) {
+                items[next[item as usize] as usize] = list;
+                next[item as usize] += 1;
+            }
+        }
+        Self { starts, items }
+    }
+
+    /// The items of a list.
     #[inline]
-    fn of(&self, key: u32) -> &[u32] {
+    pub fn of(&self, key: u32) -> &[u32] {
         &self.items[self.starts[key as usize] as usize..self.starts[key as usize + 1] as usize]
     }
 }
@@ -57,27 +81,47 @@ pub struct Relaxed {
     /// What is reached, in this order; the rules of the first `done` are triggered.
     trail: Vec<u32>,
     done: usize,
+    /// How many needs of rules were looked at so far.
+    work: u64,
 }
 
+/// How many operators are looked at between two looks at the limits.
+const RULES_PER_POLL: usize = 1 << 12;
+
+/// The work after which a core is left as large as it is.
+const EFFORT: u64 = 20_000_000;
+
+/// Into how many parts a core is divided first.
+const PARTS: usize = 32;
+
 impl Relaxed {
-    /// The relaxation of an open problem; nothing is reached yet.
-    pub fn new(open: &Open) -> Self {
+    /// The relaxation of an open problem; nothing is reached yet. An operator with effects under several conditions is one rule for the literal that says
+    /// that it applies, behind all others, and one rule for each condition.
+    ///
+    /// # Errors
+    /// Why it was stopped, if it was.
+    pub fn new(open: &Open, limits: &Limits) -> Result<Self, Stop> {
         let grounded = &open.grounded;
         let facts = grounded.facts.len() as u32;
+        let slice = |range: &std::ops::Range<u32>| {
+            &grounded.literals[range.start as usize..range.end as usize]
+        };
         let literal = |literal: Literal| {
             let free = !literal.positive && grounded.derived[literal.fact.index()];
             (!free).then(|| number(literal.fact, literal.positive))
         };
-        let (mut needs, mut adds) = (Vec::new(), Vec::new());
-        let mut rules = 0;
-        for operator in &grounded.operators {
-            let own = &grounded.arguments
-                [operator.arguments.start as usize..operator.arguments.end as usize];
-            let slice = |range: &std::ops::Range<u32>| {
-                &grounded.literals[range.start as usize..range.end as usize]
-            };
-            let mut base: Vec<u32> =
-                open.demanded(slice(&operator.precondition), own).filter_map(literal).collect();
+        let (mut needs, mut adds) = (Lists::begin(), Lists::begin());
+        let mut literals = open.count() * 2;
+        let (mut base, mut added) = (Vec::new(), Vec::new());
+        for (number_of_operator, operator) in grounded.operators.iter().enumerate() {
+            if number_of_operator.is_multiple_of(RULES_PER_POLL)
+                && let Some(stop) = limits.stopped()
+            {
+                return Err(stop);
+            }
+            let own = open.bound(&operator.bound);
+            base.clear();
+            base.extend(open.demanded(slice(&operator.precondition), own).filter_map(literal));
             base.extend(
                 open.new_among(own).iter().map(|&object| number(FactId(facts + object), true)),
             );
@@ -89,49 +133,57 @@ impl Relaxed {
             let same = |left: &&crate::grounded::Effect, right: &&crate::grounded::Effect| {
                 slice(&left.conditions) == slice(&right.conditions)
             };
+            let several = effects.chunk_by(same).nth(1).is_some();
+            if several {
+                needs.push(&mut base);
+                adds.push(&mut vec![literals as u32]);
+                base.clear();
+                base.push(literals as u32);
+                literals += 1;
+            }
             for group in effects.chunk_by(same) {
-                let conditions = open.demanded(slice(&group[0].conditions), own);
-                needs.extend(
-                    base.iter().copied().chain(conditions.filter_map(literal)).map(|n| (rules, n)),
+                let mut asked = base.clone();
+                asked.extend(open.demanded(slice(&group[0].conditions), own).filter_map(literal));
+                needs.push(&mut asked);
+                added.clear();
+                added.extend(
+                    group.iter().map(|effect| number(effect.literal.fact, effect.literal.positive)),
                 );
-                adds.extend(
-                    group.iter().map(|effect| {
-                        (rules, number(effect.literal.fact, effect.literal.positive))
-                    }),
-                );
-                rules += 1;
+                adds.push(&mut added);
             }
         }
         for axiom in &grounded.axioms {
-            let conditions =
-                &grounded.literals[axiom.conditions.start as usize..axiom.conditions.end as usize];
-            let own = open.arguments(axiom.head);
-            needs.extend(open.demanded(conditions, own).filter_map(literal).map(|n| (rules, n)));
-            adds.push((rules, number(axiom.head, true)));
-            rules += 1;
+            let own = open.bound(&axiom.bound);
+            base.clear();
+            base.extend(open.demanded(slice(&axiom.conditions), own).filter_map(literal));
+            base.extend(
+                open.new_among(own).iter().map(|&object| number(FactId(facts + object), true)),
+            );
+            needs.push(&mut base);
+            adds.push(&mut vec![number(axiom.head, true)]);
         }
+        if let Some(stop) = limits.stopped() {
+            return Err(stop);
+        }
+        let rules = needs.len() as u32;
         let goal: Vec<u32> = open.demanded(&grounded.goal, &[]).filter_map(literal).collect();
-        let literals = open.count() * 2;
-        let flip = |pairs: &[(u32, u32)]| pairs.iter().map(|&(a, b)| (b, a)).collect::<Vec<_>>();
-        let (needed_by, added_by) =
-            (Lists::new(literals, flip(&needs)), Lists::new(literals, flip(&adds)));
-        let needs = Lists::new(rules as usize, needs);
         let mut is_goal = vec![false; literals];
         for &goal in &goal {
             is_goal[goal as usize] = true;
         }
         let mut relaxed = Self {
             missing: (0..rules).map(|rule| needs.of(rule).len() as u32).collect(),
-            adds: Lists::new(rules as usize, adds),
+            needed_by: needs.turned(literals),
+            added_by: adds.turned(literals),
+            adds,
             needs,
-            needed_by,
-            added_by,
             goals_missing: is_goal.iter().filter(|&&goal| goal).count() as u32,
             goal,
             is_goal,
             reached: vec![false; literals],
             trail: Vec::new(),
             done: 0,
+            work: 0,
         };
         for rule in 0..rules {
             if relaxed.missing[rule as usize] == 0 {
@@ -139,7 +191,7 @@ impl Relaxed {
             }
         }
         relaxed.run();
-        relaxed
+        Ok(relaxed)
     }
 
     fn fire(&mut self, rule: u32) {
@@ -162,6 +214,7 @@ impl Relaxed {
             self.done += 1;
             let range = self.needed_by.starts[literal as usize] as usize
                 ..self.needed_by.starts[literal as usize + 1] as usize;
+            self.work += range.len() as u64 + 1;
             for at in range {
                 let rule = self.needed_by.items[at];
                 self.missing[rule as usize] -= 1;
@@ -211,9 +264,10 @@ impl Relaxed {
         let mut core = Vec::new();
         let mut stack = Vec::new();
         // What may be changed makes a core larger, and so does what many rules add.
+        let is_wanted = |literal: u32| wanted.get(literal as usize) == Some(&true);
         let price = |&literal: &u32| {
             let ways = self.added_by.of(literal).len() as u32;
-            (u32::from(wanted[literal as usize]) + ways, literal)
+            (u32::from(is_wanted(literal)) + ways, literal)
         };
         let unreached = |literal: &u32| !self.reached[*literal as usize];
         let first = self.goal.iter().copied().filter(unreached).min_by_key(price);
@@ -222,7 +276,7 @@ impl Relaxed {
             inside[literal as usize] = true;
         }
         while let Some(literal) = stack.pop() {
-            if wanted[literal as usize] {
+            if is_wanted(literal) {
                 core.push(literal);
             }
             for &rule in self.added_by.of(literal) {
@@ -282,22 +336,35 @@ impl Relaxed {
         }
     }
 
-    /// A subset of a core that is one, too, and of which no literal can be left out.
+    /// A subset of a core that is one, too, and of which no literal can be left out, unless that is too much work: parts of it are left out at once as
+    /// long as that works, then halves of these.
     fn minimal(&mut self, core: &[u32], all: &[u32], limits: &Limits) -> Result<Vec<u32>, Stop> {
         let mut inside = vec![false; self.reached.len()];
         for &literal in core {
             inside[literal as usize] = true;
         }
         let start = self.add(all.iter().copied().filter(|&literal| !inside[literal as usize]));
+        let most = self.work.saturating_add(EFFORT);
         let mut kept = Vec::new();
-        for &literal in core {
+        let size = (core.len() / PARTS).max(1);
+        let mut parts: Vec<&[u32]> = core.chunks(size).rev().collect();
+        while let Some(part) = parts.pop() {
             if let Some(stop) = limits.stopped() {
                 return Err(stop);
             }
-            let mark = self.add([literal]);
+            if self.work > most {
+                kept.extend_from_slice(part);
+                continue;
+            }
+            let mark = self.add(part.iter().copied());
             if self.solved() {
                 self.undo(mark);
-                kept.push(literal);
+                if let [literal] = part {
+                    kept.push(*literal);
+                } else {
+                    let (left, right) = part.split_at(part.len() / 2);
+                    parts.extend([right, left]);
+                }
             }
         }
         self.undo(start);

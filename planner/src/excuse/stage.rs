@@ -7,6 +7,7 @@ use lang::validate;
 use rustc_hash::FxHashSet;
 
 use super::hitting::{Hitting, Next, NodeId};
+use super::normality::Oddness;
 use super::open::Open;
 use super::project;
 use super::relaxed::{Relaxed, number};
@@ -81,8 +82,10 @@ pub struct Stage<'a> {
     /// Which facts some operator makes true, and which are in reach initially if nothing is ever lost.
     made: Vec<bool>,
     in_reach: Vec<bool>,
-    /// Which facts never hurt.
-    helps: Vec<bool>,
+    /// What proofs need to know; made when it is first asked for.
+    known: Option<project::Known>,
+    /// How much work a proof gets that says more, where it is proven already that there is no plan.
+    patience: u64,
     excuses: Vec<Excuse>,
     complete: bool,
     /// Cores from delete relaxation, nogoods from failed searches, sets that were tried by search.
@@ -98,9 +101,10 @@ impl<'a> Stage<'a> {
         asked: Asked<'a>,
         open: &'a Open,
         vocabulary: &'a Vocabulary,
+        oddness: &'a [Oddness],
         refuted: &'a mut Refuted,
         unsolvable: bool,
-    ) -> Self {
+    ) -> Result<Self, Stop> {
         let mut wanted = vec![false; open.count() * 2];
         for edit in &vocabulary.edits {
             let variable = &vocabulary.variables[edit.variable as usize];
@@ -114,7 +118,7 @@ impl<'a> Stage<'a> {
             }
         }
         let all = (0..wanted.len() as u32).filter(|&literal| wanted[literal as usize]).collect();
-        let mut relaxed = Relaxed::new(open);
+        let mut relaxed = Relaxed::new(open, asked.limits)?;
         let fixed = (0..open.count() as u32).filter_map(|fact| {
             let fact = FactId(fact);
             let literal = number(fact, open.initial[fact.index()]);
@@ -130,26 +134,27 @@ impl<'a> Stage<'a> {
         let in_reach =
             (0..open.count() as u32).map(|fact| relaxed.has(number(FactId(fact), true))).collect();
         relaxed.undo(mark);
-        Self {
+        Ok(Self {
             asked,
             open,
             vocabulary,
             relaxed,
             wanted,
             all,
-            hitting: Hitting::new(vocabulary, asked.question.most_edits),
+            hitting: Hitting::new(vocabulary, asked.question.most_edits, oddness),
             unsolvable,
             refuted,
             made,
             in_reach,
-            helps: project::helpful(&open.grounded),
+            known: None,
+            patience: EFFORT,
             excuses: Vec::new(),
             complete: true,
             cores: 0,
             nogoods: 0,
             tried: 0,
             last_tried: usize::MAX,
-        }
+        })
     }
 
     /// What was found, if anything.
@@ -349,7 +354,7 @@ impl<'a> Stage<'a> {
         let signature = self.signature(edits);
         let known = self.refuted.contains(&signature) || edits.is_empty() && self.unsolvable;
         let answer = if known {
-            Answer::Unsolvable(budget)
+            Answer::Unsolvable(0)
         } else {
             solve(self.asked.domain, &changed, false, budget, self.asked.limits)?
         };
@@ -366,16 +371,23 @@ impl<'a> Stage<'a> {
             }
             Answer::Spent => None,
         };
-        // Where it is known already that there is no plan, a proof that says more is worth as much work as that was.
-        let budget = proof.map_or(budget, |work| budget.min(4 * work + GENERAL));
-        let verdict = project::decide(
-            self.open,
-            self.vocabulary,
-            &self.helps,
-            state,
-            budget,
-            self.asked.limits,
-        );
+        // Where it is known already that there is no plan, a proof that says more is worth as much work as that was, and some more as long as such proofs
+        // are found.
+        let budget = proof.map_or(budget / 4, |work| budget.min(4 * work + self.patience));
+        let known = self.known.get_or_insert_with(|| project::Known::new(&self.open.grounded));
+        let Asked { question, limits, .. } = self.asked;
+        let abstracts = question.abstraction;
+        let verdict =
+            project::decide(self.open, self.vocabulary, known, state, abstracts, budget, limits);
+        if proof.is_some() {
+            let says_more = matches!(&verdict, project::Verdict::Unsolvable(clause)
+                if clause.len() * 2 < self.differs(edits).len());
+            self.patience = if says_more {
+                EFFORT.min(self.patience * 2)
+            } else {
+                GENERAL.max(self.patience / 2)
+            };
+        }
         Ok(match verdict {
             project::Verdict::Unsolvable(clause) => Verdict::Ruled(clause),
             project::Verdict::Stopped(stop) if proof.is_none() => Verdict::Stopped(stop),

@@ -51,6 +51,8 @@ pub struct Emission<'a> {
     values: FxHashMap<(FunctionId, Box<[u32]>), u32>,
     /// What is made so far.
     pub grounded: Grounded,
+    /// Whether it is to be known which objects operators and axioms are about.
+    open: bool,
     /// Whether an instance fell away, so that less is reachable than the fixpoint found.
     pub dropped: bool,
     scratch: Vec<Literal>,
@@ -66,6 +68,7 @@ impl<'a> Emission<'a> {
         limits: &'a Limits,
         relations: Vec<Relation>,
         initial: &[u32],
+        open: bool,
     ) -> Self {
         let mut grounded = Grounded { uses_metric: normal.uses_metric, ..Grounded::default() };
         let mut offsets = vec![0; normal.predicates.len()];
@@ -105,6 +108,7 @@ impl<'a> Emission<'a> {
             offsets,
             values,
             grounded,
+            open,
             dropped: false,
             scratch: Vec::new(),
             steps: 0,
@@ -135,7 +139,9 @@ impl<'a> Emission<'a> {
                 let head = self
                     .fact(&rule.head, &binding)
                     .expect("the fixpoint knows the heads of its derivations");
-                self.grounded.axioms.push(Axiom { head, conditions });
+                let all = if self.open { rule.bound } else { 0 };
+                let bound = self.arguments(&binding[..all]);
+                self.grounded.axioms.push(Axiom { head, bound, conditions });
             }
         }
         self.goal()
@@ -211,19 +217,24 @@ impl<'a> Emission<'a> {
             self.grounded.literals.truncate(literals_before);
             return true;
         }
-        let start = self.grounded.arguments.len() as u32;
-        self.grounded
-            .arguments
-            .extend(binding[..schema.parameters].iter().map(|&object| ObjectId(object)));
-        let arguments = start..self.grounded.arguments.len() as u32;
+        let all = if self.open { schema.bound.max(schema.parameters) } else { schema.parameters };
+        let bound = self.arguments(&binding[..all]);
         self.grounded.operators.push(Operator {
             action: schema.action,
-            arguments,
+            arguments: bound.start..bound.start + schema.parameters as u32,
+            bound,
             precondition,
             effects: range,
             cost,
         });
         true
+    }
+
+    /// Keeps some objects.
+    fn arguments(&mut self, objects: &[u32]) -> Range<u32> {
+        let start = self.grounded.arguments.len() as u32;
+        self.grounded.arguments.extend(objects.iter().map(|&object| ObjectId(object)));
+        start..self.grounded.arguments.len() as u32
     }
 
     /// The cost of an instance; none where a function that it depends on has no value, so that it cannot be applied.
@@ -384,7 +395,7 @@ impl<'a> Emission<'a> {
             limits: self.limits,
             binding,
             steps: &mut self.steps,
-            purse: &mut Purse::new(u32::MAX),
+            purse: &mut Purse::new(u32::MAX, (u32::MAX, 0)),
         }
         .run(found)
     }

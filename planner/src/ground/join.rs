@@ -299,40 +299,72 @@ pub struct Join<'a> {
 pub struct Purse {
     /// What is left.
     left: u32,
-    /// What is paid for, by relation and row.
+    /// Objects from this one on cost so much each.
+    objects: (u32, u32),
+    /// What is paid for: rows by relation and number, and objects.
     paid: Vec<(u32, u32)>,
-    /// Whether a row was ever too dear.
+    /// Whether something was ever too dear.
     pub was_short: bool,
 }
 
+/// Stands for the relation where an object is paid for.
+const OBJECT: u32 = u32::MAX;
+
+/// What was in a purse, and how much of it was paid for.
+#[derive(Debug, Clone, Copy)]
+struct Receipt {
+    left: u32,
+    paid: usize,
+}
+
 impl Purse {
-    /// A purse with so much in it.
-    pub fn new(left: u32) -> Self {
-        Self { left, paid: Vec::new(), was_short: false }
+    /// A purse with so much in it, for rows and for objects from the one that is named first, each of which costs so much.
+    pub fn new(left: u32, objects: (u32, u32)) -> Self {
+        Self { left, objects, paid: Vec::new(), was_short: false }
     }
 
-    /// Pays for a row; what to give back when it is matched no longer, or nothing if it is too dear.
-    #[inline]
-    fn pay(&mut self, relation: &Relation, predicate: u32, row: u32) -> Option<u32> {
-        let price = relation.price(row);
-        if price == 0 || self.paid.contains(&(predicate, row)) {
-            return Some(0);
+    fn receipt(&self) -> Receipt {
+        Receipt { left: self.left, paid: self.paid.len() }
+    }
+
+    fn spend(&mut self, price: u32, on: (u32, u32)) -> bool {
+        if self.paid.contains(&on) {
+            return true;
         }
         if price > self.left {
             self.was_short = true;
-            return None;
+            return false;
         }
         self.left -= price;
-        self.paid.push((predicate, row));
-        Some(price)
+        self.paid.push(on);
+        true
+    }
+
+    /// Pays for a row and the objects in it; what to give back when it is matched no longer, or nothing if it is too dear.
+    #[inline]
+    fn pay(&mut self, relation: &Relation, predicate: u32, row: u32) -> Option<Receipt> {
+        let receipt = self.receipt();
+        let price = relation.price(row);
+        let paid = (price == 0 || self.spend(price, (predicate, row)))
+            && (self.objects.0 == u32::MAX
+                || relation.row(row).iter().all(|&object| self.pay_object(object)));
+        if !paid {
+            self.take_back(receipt);
+            return None;
+        }
+        Some(receipt)
+    }
+
+    /// Pays for an object; false if it is too dear.
+    #[inline]
+    fn pay_object(&mut self, object: u32) -> bool {
+        object < self.objects.0 || self.spend(self.objects.1, (OBJECT, object))
     }
 
     #[inline]
-    fn take_back(&mut self, price: u32) {
-        if price > 0 {
-            self.left += price;
-            self.paid.pop();
-        }
+    fn take_back(&mut self, receipt: Receipt) {
+        self.left = receipt.left;
+        self.paid.truncate(receipt.paid);
     }
 }
 
@@ -419,15 +451,23 @@ impl Join<'_> {
             Access::Assign { variable, term } => {
                 let object = value(*term, self.binding);
                 self.binding[*variable as usize] = object;
+                let receipt = self.purse.receipt();
                 let fits = self.body.domains[*variable as usize].contains(object)
+                    && self.purse.pay_object(object)
                     && self.pass(&step.checks);
-                !fits || self.step(depth + 1, found)
+                let finished = !fits || self.step(depth + 1, found);
+                self.purse.take_back(receipt);
+                finished
             }
             Access::Domain { variable } => {
                 let body = self.body;
                 for &object in &body.domains[*variable as usize].list {
                     self.binding[*variable as usize] = object;
-                    if self.pass(&step.checks) && !self.step(depth + 1, found) {
+                    let receipt = self.purse.receipt();
+                    let fits = self.purse.pay_object(object) && self.pass(&step.checks);
+                    let finished = !fits || self.step(depth + 1, found);
+                    self.purse.take_back(receipt);
+                    if !finished {
                         return false;
                     }
                 }

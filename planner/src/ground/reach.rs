@@ -73,7 +73,7 @@ struct Fixpoint<'a> {
     purse: Purse,
 }
 
-/// Computes the fixpoint from the static and initial facts that `relations` knows. An instance whose facts cost more than `purse` is left out.
+/// Computes the fixpoint from the static and initial facts that `relations` knows. An instance whose facts and objects cost more than what is in `purse` is left out.
 ///
 /// # Errors
 /// Why it was stopped, if it was.
@@ -81,11 +81,11 @@ pub fn reach(
     normal: &Normal,
     world: &World,
     relations: Vec<Relation>,
-    purse: u32,
+    purse: Purse,
     limits: &Limits,
 ) -> Result<Reach, Stop> {
     let mut fixpoint = Fixpoint::new(normal, world, relations, limits);
-    fixpoint.purse = Purse::new(purse);
+    fixpoint.purse = purse;
     fixpoint.run()?;
     fixpoint.reach.was_short = fixpoint.purse.was_short;
     Ok(fixpoint.reach)
@@ -116,7 +116,7 @@ impl<'a> Fixpoint<'a> {
             queue: Vec::new(),
             steps: 0,
             published: 0,
-            purse: Purse::new(0),
+            purse: Purse::new(0, (u32::MAX, 0)),
         };
         for (number, schema) in normal.schemas.iter().enumerate() {
             let matched: Vec<u32> = (0..schema.bound as u32).collect();
@@ -283,7 +283,12 @@ impl<'a> Fixpoint<'a> {
         }
         let mut matches = Matches { values: Vec::new(), count: 0 };
         let matched = &program.body.matched;
+        let limits = self.limits;
         let mut found = |binding: &[u32]| {
+            if matches.values.try_reserve(matched.len()).is_err() {
+                limits.stop(Stop::Memory);
+                return;
+            }
             matches.values.extend(matched.iter().map(|&variable| binding[variable as usize]));
             matches.count += 1;
         };
@@ -292,19 +297,22 @@ impl<'a> Fixpoint<'a> {
         if !finished {
             return Err(self.limits.stopped().expect("a join ends early only when it is stopped"));
         }
+        if let Some(stop) = self.limits.stopped().filter(|&stop| stop == Stop::Memory) {
+            return Err(stop);
+        }
         if matches.count > 0 {
-            self.consequences(number, &matches);
+            self.consequences(number, &matches)?;
         }
         Ok(())
     }
 
     /// Takes the matches of a program in.
-    fn consequences(&mut self, number: usize, matches: &Matches) {
+    fn consequences(&mut self, number: usize, matches: &Matches) -> Result<(), Stop> {
         let program = &self.programs[number];
         let width = program.body.matched.len();
         match &program.head {
             Head::Schema(schema) => {
-                self.reach.instances[*schema].extend_from_slice(&matches.values);
+                append(&mut self.reach.instances[*schema], &matches.values)?;
                 self.reach.counts[*schema] += matches.count;
                 let consequences = &self.consequences[*schema];
                 for instance in rows(&matches.values, width, matches.count) {
@@ -321,7 +329,7 @@ impl<'a> Fixpoint<'a> {
                 }
             }
             Head::Rule(rule) => {
-                self.reach.derivations[*rule].extend_from_slice(&matches.values);
+                append(&mut self.reach.derivations[*rule], &matches.values)?;
                 self.reach.derivation_counts[*rule] += matches.count;
                 let head = &self.rule_heads[*rule];
                 for instance in rows(&matches.values, width, matches.count) {
@@ -338,7 +346,15 @@ impl<'a> Fixpoint<'a> {
                 }
             }
         }
+        Ok(())
     }
+}
+
+/// Appends values where there is memory for them.
+fn append(values: &mut Vec<u32>, more: &[u32]) -> Result<(), Stop> {
+    values.try_reserve(more.len()).map_err(|_| Stop::Memory)?;
+    values.extend_from_slice(more);
+    Ok(())
 }
 
 /// Conditions whose matches are those of `condition`, each match in exactly one of them: its static disjunctions are split,

@@ -202,7 +202,7 @@ fn rewrite(grounded: &mut Grounded, truth: &[Truth]) {
     let mut axioms = Vec::with_capacity(grounded.axioms.len());
     for axiom in grounded.axioms.iter().filter(|axiom| truth[axiom.head.index()] == Truth::Open) {
         if let Some(conditions) = keep(&axiom.conditions) {
-            axioms.push(Axiom { head: axiom.head, conditions });
+            axioms.push(Axiom { conditions, ..axiom.clone() });
         }
     }
     grounded.literals = literals;

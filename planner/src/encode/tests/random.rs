@@ -107,6 +107,7 @@ impl Draft {
             grounded.operators.push(Operator {
                 action,
                 arguments: 0..0,
+                bound: 0..0,
                 precondition,
                 effects,
                 cost: *cost,
@@ -114,7 +115,7 @@ impl Draft {
         }
         for (head, body) in &self.axioms {
             let conditions = push(&mut grounded, body);
-            grounded.axioms.push(Axiom { head: FactId(*head), conditions });
+            grounded.axioms.push(Axiom { head: FactId(*head), bound: 0..0, conditions });
         }
         grounded.goal = self
             .goal
