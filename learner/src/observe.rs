@@ -10,8 +10,10 @@
 //! - What is lost from sight stays as it was.
 
 mod config;
+mod credit;
 mod grasp;
 mod moment;
+mod motion;
 mod relation;
 mod shape;
 mod state;
@@ -21,7 +23,7 @@ mod vocabulary;
 
 use std::collections::VecDeque;
 
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::Vector3;
 
 pub use config::{BadConfig, Band, Config, Measure};
 pub use vocabulary::{BadPattern, Ground, Pattern, Relation, Thing, Vocabulary};
@@ -29,7 +31,8 @@ pub use vocabulary::{BadPattern, Ground, Pattern, Relation, Thing, Vocabulary};
 use crate::log::{Fact, Frame, HandId, HandState, Header, ObjectId};
 use grasp::{Grasp, Seen, Since};
 use moment::{HandMoment, Moment};
-use relation::{Body, Flip, Geometry};
+use motion::{Moving, STILL, Still};
+use relation::{Body, Geometry};
 use shape::Shape;
 use state::State;
 use track::{Sample, Track};
@@ -125,29 +128,6 @@ struct Raw {
     facts: Option<Vec<Fact>>,
 }
 
-/// Whether a hand moves, by two thresholds and a least duration.
-#[derive(Debug, Default)]
-struct Moving {
-    raw: bool,
-    moves: bool,
-    since: Option<(u64, f64)>,
-    /// Since which frame it moves or rests, and since which it did the other before.
-    turned: (u64, u64),
-    /// When the hand was last seen.
-    seen: Option<f64>,
-}
-
-/// The pose of something that never moves, averaged over all frames so far.
-#[derive(Debug, Default)]
-struct Still {
-    count: u32,
-    place: Vector3<f64>,
-    turn: nalgebra::Vector4<f64>,
-}
-
-/// The pose of a fixed object is averaged over so many frames.
-const STILL: u32 = 500;
-
 /// Observes a whole log that is in memory.
 pub fn observe<'f>(
     header: &Header,
@@ -182,7 +162,7 @@ impl<'a> Observer<'a> {
             loose: header
                 .objects
                 .iter()
-                .map(|what| !what.region && !(what.fixed && what.joints.is_empty()))
+                .map(|what| !(what.region || what.fixed && what.joints.is_empty()))
                 .collect(),
             still: (0..objects).map(|_| Still::default()).collect(),
             geometry: Geometry::new(header),
@@ -399,7 +379,7 @@ impl<'a> Observer<'a> {
         while self.passed > 1 && self.times[self.passed - 1] - self.times[0] > keep + 0.1 {
             self.times.pop_front();
             self.raw.pop_front();
-            for track in self.hands.iter_mut() {
+            for track in &mut self.hands {
                 track.pop();
             }
             for (track, what) in self.objects.iter_mut().zip(&self.header.objects) {
@@ -494,85 +474,6 @@ impl<'a> Observer<'a> {
         observation
     }
 
-    /// The objects that a change of a relation is about.
-    fn about(&self, ground: &Ground, flips: &[Flip]) -> Vec<ObjectId> {
-        let mut things = ground.things.clone();
-        let partners: &[Relation] = match ground.relation {
-            Relation::Clear => &[Relation::OnTop, Relation::At],
-            Relation::Unblocked => &[Relation::Blocks],
-            _ => &[],
-        };
-        for &relation in partners {
-            things.extend(self.state.partners(relation, ground.things[0]));
-            let flipped = flips
-                .iter()
-                .filter(|flip| flip.relation == relation && flip.second == ground.things[0]);
-            things.extend(flipped.map(|flip| flip.first));
-        }
-        let mut objects: Vec<ObjectId> = things
-            .into_iter()
-            .filter_map(|thing| match thing {
-                Thing::Object(object) => Some(object),
-                Thing::Hand(_) => None,
-            })
-            .collect();
-        objects.sort_unstable();
-        objects.dedup();
-        objects
-    }
-
-    /// Where all hands were around a moment, seen from the objects of a change.
-    fn credits(&self, now: usize, objects: &[ObjectId]) -> Vec<Credit> {
-        let time = self.moments[now].time;
-        // What is fixed does not change, so being near to it earns nothing.
-        let loose = |object: &&ObjectId| self.loose[object.index()];
-        let mut credits: Vec<Credit> = Vec::new();
-        for number in 0..self.header.hands.len() {
-            let hand = HandId(number as u32);
-            let mut best: Option<Credit> = None;
-            for moment in self
-                .moments
-                .iter()
-                .filter(|moment| (moment.time - time).abs() <= self.config.credit)
-            {
-                let here = &moment.hands[number];
-                for &object in objects.iter().filter(loose) {
-                    let holds = here.in_hand == Some(object);
-                    let distance = here.distance(here.in_hand, object.index());
-                    let distance = if holds { 0.0 } else { distance.max(0.0) };
-                    if distance.is_nan() {
-                        continue;
-                    }
-                    let limit = if here.in_hand.is_some() {
-                        self.config.touch.high
-                    } else {
-                        self.config.hold.low
-                    };
-                    let touches = holds || distance <= limit;
-                    let acts = here.acted_on == Some(object);
-                    let credit =
-                        best.get_or_insert(Credit { hand, object, distance, holds, touches, acts });
-                    if (holds, -distance) > (credit.holds, -credit.distance) {
-                        credit.object = object;
-                    }
-                    credit.distance = credit.distance.min(distance);
-                    credit.holds |= holds;
-                    credit.touches |= touches;
-                    credit.acts |= acts;
-                }
-            }
-            credits.extend(best);
-        }
-        credits.sort_by(|one, other| {
-            other
-                .holds
-                .cmp(&one.holds)
-                .then(one.distance.total_cmp(&other.distance))
-                .then(one.hand.cmp(&other.hand))
-        });
-        credits
-    }
-
     /// The distances of a place to all objects.
     fn distances(&self, place: Option<Vector3<f64>>, measure: Measure) -> Vec<f32> {
         let one = |body: &Body| {
@@ -612,51 +513,4 @@ enum Rewrite {
     Moves(u64, bool),
     /// From then on it holds this.
     Holds(Since),
-}
-
-impl Moving {
-    /// Takes the speed at the next frame; says since which frame the hand moves, or rests, once that has lasted long enough.
-    fn step(&mut self, now: (u64, f64), speed: Option<f64>, config: &Config) -> Option<u64> {
-        let first = self.seen.is_none();
-        match speed {
-            Some(speed) => {
-                self.raw = config.speed.rising(self.raw, speed);
-                self.seen = Some(now.1);
-            }
-            // A hand that stays away is no longer thought to move.
-            None if self.seen.is_some_and(|seen| now.1 - seen > config.bridge) => self.raw = false,
-            None => {}
-        }
-        if self.raw == self.moves {
-            self.since = None;
-            return None;
-        }
-        let since = *self.since.get_or_insert(now);
-        (first || now.1 - since.1 >= config.minimum).then(|| {
-            self.moves = self.raw;
-            self.since = None;
-            self.turned = (since.0, self.turned.0);
-            since.0
-        })
-    }
-}
-
-impl Still {
-    /// Takes one more pose.
-    fn add(&mut self, pose: &Isometry3<f64>) {
-        if self.count >= STILL {
-            return;
-        }
-        self.count += 1;
-        self.place += pose.translation.vector;
-        let turn = pose.rotation.coords;
-        self.turn += if turn.dot(&self.turn) < 0.0 { -turn } else { turn };
-    }
-
-    /// The mean pose.
-    fn pose(&self) -> Isometry3<f64> {
-        let place = self.place / f64::from(self.count);
-        let turn = nalgebra::UnitQuaternion::new_normalize(nalgebra::Quaternion::from(self.turn));
-        Isometry3::from_parts(place.into(), turn)
-    }
 }

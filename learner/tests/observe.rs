@@ -35,8 +35,10 @@ fn drawer() -> Object {
 fn story(scene: &Scene, config: &Config) -> Vec<String> {
     let tell = |change: &Change| {
         let sign = if change.holds { '+' } else { '-' };
-        let arguments: String =
-            change.fact.arguments.iter().map(|name| format!(" {name}")).collect();
+        let words: Vec<&str> = std::iter::once(&change.fact.predicate)
+            .chain(&change.fact.arguments)
+            .map(String::as_str)
+            .collect();
         let credit = change.credits.first().filter(|credit| credit.touches).map_or(
             String::new(),
             |credit| {
@@ -44,7 +46,7 @@ fn story(scene: &Scene, config: &Config) -> Vec<String> {
                 format!(" {hand} {}", if credit.holds { "holds" } else { "touches" })
             },
         );
-        format!("{sign}({}{arguments}){credit}", change.fact.predicate)
+        format!("{sign}({}){credit}", words.join(" "))
     };
     let observations = observe(&scene.header, config, &scene.frames);
     observations

@@ -287,7 +287,10 @@ impl<R> Reader<R> {
                 Column::Time => real(cell)
                     .and_then(|value| sample::time(value, self.scale, self.before))
                     .map(|value| time = Some(value)),
-                Column::Facts => read_facts(cell).map(|list| facts = Some(list)),
+                Column::Facts => {
+                    facts = Some(read_facts(cell));
+                    Ok(())
+                }
                 Column::Hand(place, part) => self.cell(cell, part, &mut hands[place]),
                 Column::Object(place, part) => self.cell(cell, part, &mut objects[place]),
             };
@@ -382,13 +385,13 @@ fn truth(cell: &str) -> Result<bool, Fault> {
 }
 
 /// Facts such as `on-top a b; clear a`; a lone `;` says that none holds.
-fn read_facts(cell: &str) -> Result<Vec<Fact>, Fault> {
+fn read_facts(cell: &str) -> Vec<Fact> {
     let facts = cell.split(';').filter(|fact| !fact.trim().is_empty()).map(|fact| {
         let mut words = fact.split_whitespace().map(String::from);
         let predicate = words.next().unwrap_or_default();
         Fact { predicate, arguments: words.collect() }
     });
-    Ok(facts.collect())
+    facts.collect()
 }
 
 /// Writes a log of wide CSV.
@@ -448,7 +451,7 @@ impl<'h, W: Write> Writer<'h, W> {
 
     /// Hands over what is still in a buffer, and gives the output back.
     pub fn finish(self) -> io::Result<W> {
-        self.out.into_inner().map_err(|error| error.into_error())
+        self.out.into_inner().map_err(csv::IntoInnerError::into_error)
     }
 }
 

@@ -196,8 +196,12 @@ pub(super) fn read(text: &[u8], line: u64) -> Result<(Header, Scale), BadLine> {
 pub(crate) fn syntax(line: u64, error: &serde_json::Error) -> BadLine {
     let text = error.to_string();
     let message = text.rfind(" at line ").map_or(text.as_str(), |end| &text[..end]);
+    // Readers know JSON, but not the types of this program.
+    let message = message
+        .replace("expected f64", "expected a number")
+        .replace("expected ident", "this is no JSON");
     let column = (error.column() > 0).then_some(error.column() as u64);
-    BadLine { line, column, field: None, fault: Fault::Form(message.to_string()) }
+    BadLine { line, column, field: None, fault: Fault::Form(message) }
 }
 
 /// The header that a line says, in metres and radians.

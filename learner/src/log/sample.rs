@@ -14,13 +14,16 @@ pub(super) fn pose(values: [f64; 7], scale: Scale) -> Result<Isometry3<f64>, Fau
     if !values.iter().all(|value| value.is_finite()) {
         return Err(Fault::NotFinite);
     }
-    let [x, y, z, i, j, k, w] = values;
-    let turn = Quaternion::new(w, i, j, k);
+    let turn = Quaternion::new(values[6], values[3], values[4], values[5]);
     let length = turn.norm();
     if (length - 1.0).abs() > ROUNDED {
         return Err(Fault::Quaternion(length));
     }
-    let place = Translation3::new(x * scale.length, y * scale.length, z * scale.length);
+    let place = Translation3::new(
+        values[0] * scale.length,
+        values[1] * scale.length,
+        values[2] * scale.length,
+    );
     Ok(Isometry3::from_parts(place, UnitQuaternion::new_normalize(turn)))
 }
 

@@ -181,7 +181,7 @@ impl Grasp {
         self.firm = seen.frame;
         let others: Vec<Bond> =
             within.iter().filter_map(|&(object, _)| seen.bond(object)).collect();
-        self.doubt = (others.len() > 1).then(|| (seen.pose.translation.vector, others));
+        self.doubt = (others.len() > 1).then_some((seen.pose.translation.vector, others));
         changes.push(Since { frame, object: Some(object) });
     }
 

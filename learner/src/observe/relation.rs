@@ -105,12 +105,11 @@ impl Geometry {
                 continue;
             }
             let to = Thing::Object(ObjectId(second as u32));
-            let way = self.way(second, bodies, header);
+            let way = way(second, bodies, header);
             let middle = below.middle();
             let range =
                 way.map_or(below.radius, |way| way.radius + (way.middle() - middle).norm()) + FAR;
-            for first in 0..self.count {
-                let body = &bodies[first];
+            for (first, body) in bodies.iter().enumerate() {
                 let (Some(above), false) = (&body.shape, first == second || body.lost) else {
                     continue;
                 };
@@ -219,15 +218,6 @@ impl Geometry {
         }
         debug_assert_eq!(hands.len(), self.hands);
     }
-
-    /// The space through which a sliding part passes between closed and open; none where nothing slides.
-    fn way(&self, object: usize, bodies: &[Body], header: &Header) -> Option<Shape> {
-        let joint =
-            header.objects[object].joints.iter().find(|joint| joint.motion == Motion::Slides)?;
-        let (shape, open) = (bodies[object].shape?, bodies[object].open);
-        let range = joint.upper - joint.lower;
-        (!open.is_nan()).then(|| shape.swept(&joint.axis, -open * range, (1.0 - open) * range))
-    }
 }
 
 impl Cell {
@@ -247,6 +237,15 @@ impl Cell {
             (since.0, false)
         })
     }
+}
+
+/// The space through which a sliding part passes between closed and open; none where nothing slides.
+fn way(object: usize, bodies: &[Body], header: &Header) -> Option<Shape> {
+    let joint =
+        header.objects[object].joints.iter().find(|joint| joint.motion == Motion::Slides)?;
+    let (shape, open) = (bodies[object].shape?, bodies[object].open);
+    let range = joint.upper - joint.lower;
+    (!open.is_nan()).then(|| shape.swept(&joint.axis, -open * range, (1.0 - open) * range))
 }
 
 /// Whether a thing rests on something: its lowest side is at the other's upper side, and its middle is over it.

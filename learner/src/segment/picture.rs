@@ -198,12 +198,11 @@ fn place(
     for &child in &children {
         place(graph, child, depth + 1.0, leaves, places);
     }
-    let column = match (children.first(), children.last()) {
-        (Some(first), Some(last)) => f64::midpoint(places[first.index()].0, places[last.index()].0),
-        _ => {
-            *leaves += 1.0;
-            *leaves - 1.0
-        }
+    let column = if let (Some(first), Some(last)) = (children.first(), children.last()) {
+        f64::midpoint(places[first.index()].0, places[last.index()].0)
+    } else {
+        *leaves += 1.0;
+        *leaves - 1.0
     };
     places[node.index()] = (column, depth);
 }

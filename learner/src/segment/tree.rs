@@ -1,6 +1,6 @@
 //! What a hand does goes in, as three features; its activity comes out, by a decision tree that a person can read.
 
-use std::fmt;
+use std::fmt::{self, Write as _};
 
 use petgraph::graph::{DiGraph, NodeIndex};
 
@@ -128,12 +128,17 @@ impl Tree {
         for node in graph.node_indices() {
             let shape = if graph.neighbors(node).next().is_some() { "ellipse" } else { "box" };
             let label = graph[node].replace('\n', "\\n");
-            text += &format!("  n{} [label=\"{label}\", shape={shape}];\n", node.index());
+            let _ = writeln!(text, "  n{} [label=\"{label}\", shape={shape}];", node.index());
         }
         for edge in graph.edge_indices() {
             let (from, to) = graph.edge_endpoints(edge).expect("the edge is in the graph");
-            text +=
-                &format!("  n{} -> n{} [label=\"{}\"];\n", from.index(), to.index(), graph[edge]);
+            let _ = writeln!(
+                text,
+                "  n{} -> n{} [label=\"{}\"];",
+                from.index(),
+                to.index(),
+                graph[edge]
+            );
         }
         text + "}\n"
     }

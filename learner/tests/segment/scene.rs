@@ -157,8 +157,8 @@ impl Scene {
     fn frame(&mut self, speeds: &[f64; 2]) {
         let time = self.frames.len() as f64 / RATE;
         let mut states = Vec::new();
-        for hand in 0..2 {
-            let moves = speeds[hand] > 0.04;
+        for (hand, speed) in speeds.iter().enumerate() {
+            let moves = *speed > 0.04;
             let in_hand = self.held[hand].map(|held| held.0);
             // A hand acts on what it is about while it is within 0.15 m of its surface; once there, until it takes or lets go.
             let near = |aim: &ObjectId| {

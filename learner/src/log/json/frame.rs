@@ -117,7 +117,7 @@ impl<'de> Visitor<'de> for Context<'_> {
                 }
                 "hands" => map.next_value_seed(Hands { context: self, out: &mut frame.hands })?,
                 "objects" => {
-                    map.next_value_seed(Objects { context: self, out: &mut frame.objects })?
+                    map.next_value_seed(Objects { context: self, out: &mut frame.objects })?;
                 }
                 "facts" => frame.facts = Some(facts(map.next_value()?, self.index)?),
                 other if is_remark(other) => {
