@@ -4,7 +4,7 @@
 //! Whatever units a file has, what is read from it has these.
 //!
 //! - [`json`] reads and writes JSON Lines, the format of `docs/logs.md`; [`csv`] the same as a table.
-//! - With the features of those names, `mcap` reads recordings of ROS 2 and `lerobot` data sets of LeRobot.
+//! - With the features of those names, `mcap` reads recordings of ROS 2 and `lerobot` data sets of `LeRobot`.
 //! - [`BadLine`] is what is wrong with a line.
 
 mod fault;

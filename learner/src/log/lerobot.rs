@@ -1,4 +1,4 @@
-//! A table of a LeRobot data set (version 3, Parquet) goes in, with a [`Mapping`] from columns to hands and objects; the frames of one episode come out.
+//! A table of a `LeRobot` data set (version 3, Parquet) goes in, with a [`Mapping`] from columns to hands and objects; the frames of one episode come out.
 //!
 //! Such data sets have no names and sizes of objects, and what the numbers of `observation.state` are each robot decides; the mapping says both.
 

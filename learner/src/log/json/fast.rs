@@ -20,10 +20,8 @@ pub(super) fn read(
     cursor.skip(b",\"hands\":{")?;
     let mut hands = Vec::with_capacity(header.hands.len());
     for hand in &header.hands {
-        hands.push(match cursor.key(&hand.name, hands.iter().all(Option::is_none))? {
-            true => Some(cursor.hand(scale)?),
-            false => None,
-        });
+        let found = cursor.key(&hand.name, hands.iter().all(Option::is_none))?;
+        hands.push(if found { Some(cursor.hand(scale)?) } else { None });
     }
     cursor.skip(b"},\"objects\":{")?;
     let mut objects = Vec::with_capacity(header.objects.len());
