@@ -2,7 +2,7 @@
 //!
 //! The domains are plain files, each in its own folder beside this crate's `src`, and README.md there says what each teaches.
 //! [`kitchen`] makes kitchens of any size in which something is missing.
-//! This crate will also hold the physical worlds that generate demonstrations and trials for them.
+//! [`world`] has physical worlds in which demonstrations are shown and plans are carried out.
 //!
 //! ```
 //! let stacking = domains::folder().join("stacking");

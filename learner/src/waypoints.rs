@@ -23,11 +23,11 @@ pub struct Routine {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Doer {
-    /// The hand that this argument names, or the hand of the agent that it names.
+    /// The hand that this argument names, or the one of the agent's that it names, chosen as for [`Doer::Any`].
     Argument(u32),
     /// The hand of this name.
     Named(String),
-    /// Any hand: the one that holds what is carried or let go, else a free one that is nearest and reaches.
+    /// Any hand: one that holds an argument, else a free one that reaches, the nearest first.
     Any,
 }
 

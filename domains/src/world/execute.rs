@@ -253,51 +253,47 @@ impl Run {
         arguments: &[Option<ObjectId>],
         taken: &[HandId],
     ) -> Option<HandId> {
-        let by_name = |name: &str| {
-            let agent =
-                self.header.agents.iter().position(|agent| agent.eq_ignore_ascii_case(name));
-            self.header
-                .hands
-                .iter()
-                .position(|hand| hand.name.eq_ignore_ascii_case(name))
-                .or_else(|| {
-                    let agent = agent?;
-                    self.header.hands.iter().position(|hand| hand.agent as usize == agent)
-                })
-                .map(|at| HandId(at as u32))
+        let name = match doer {
+            Doer::Named(name) => Some(name),
+            Doer::Argument(argument) => Some(step.arguments.get(*argument as usize)?),
+            Doer::Any => None,
         };
-        match doer {
-            Doer::Named(name) => by_name(name),
-            Doer::Argument(argument) => by_name(step.arguments.get(*argument as usize)?),
-            Doer::Any => {
-                let mine = || routine.points.iter().filter(|point| point.hand == role);
-                let object = |index: u32| arguments.get(index as usize).copied().flatten();
-                let carried: Vec<ObjectId> =
-                    mine().filter_map(|point| point.carried).filter_map(object).collect();
-                let aims: Vec<Vector3<f64>> = mine()
-                    .filter_map(|point| match point.anchor {
-                        Anchor::Middle(index) | Anchor::Top(index) | Anchor::Free(index) => {
-                            object(index)
-                        }
-                        Anchor::World | Anchor::Hand(_) => None,
-                    })
-                    .map(|object| self.stage.pose(object).translation.vector)
-                    .collect();
-                self.stage.hands().filter(|hand| !taken.contains(hand)).min_by(|first, second| {
-                    let cost = |hand: &HandId| {
-                        let held = self.stage.held(*hand);
-                        let fits = held.is_some_and(|held| carried.contains(&held));
-                        // Somebody who needs a free hand takes no full one, and who puts something down takes the hand that has it.
-                        let wrong = !fits && (held.is_some() || !carried.is_empty());
-                        let out = aims.iter().any(|aim| !self.reaches(*hand, *aim));
-                        let place = self.stage.hand(*hand).translation.vector;
-                        let far = aims.first().map_or(0.0, |aim| (aim - place).norm());
-                        (f64::from(u8::from(wrong)) + f64::from(u8::from(out))) * 100.0 + far
-                    };
-                    cost(first).total_cmp(&cost(second))
-                })
-            }
-        }
+        // A name is that of a hand, or of an agent that may use any of its hands.
+        let may = |hand: HandId| {
+            let entry = &self.header.hands[hand.index()];
+            let agent = &self.header.agents[entry.agent as usize];
+            name.is_none_or(|name| {
+                entry.name.eq_ignore_ascii_case(name) || agent.eq_ignore_ascii_case(name)
+            })
+        };
+        let mine = || routine.points.iter().filter(|point| point.hand == role);
+        let carries = mine().any(|point| point.carried.is_some());
+        let aims: Vec<Vector3<f64>> = mine()
+            .filter_map(|point| match point.anchor {
+                Anchor::Middle(index) | Anchor::Top(index) | Anchor::Free(index) => {
+                    arguments.get(index as usize).copied().flatten()
+                }
+                Anchor::World | Anchor::Hand(_) => None,
+            })
+            .map(|object| self.stage.pose(object).translation.vector)
+            .collect();
+        let cost = |hand: HandId| {
+            // Who puts something down takes the hand that has it, and who takes something a free one.
+            let unfit = match self.stage.held(hand) {
+                Some(held) if arguments.contains(&Some(held)) => 0.0,
+                None if !carries => 0.0,
+                None => 1.0,
+                Some(_) => 2.0,
+            };
+            let out = aims.iter().any(|aim| !self.reaches(hand, *aim));
+            let place = self.stage.hand(hand).translation.vector;
+            let far = aims.first().map_or(0.0, |aim| (aim - place).norm());
+            (unfit + f64::from(u8::from(out))) * 100.0 + far
+        };
+        self.stage
+            .hands()
+            .filter(|hand| !taken.contains(hand) && may(*hand))
+            .min_by(|first, second| cost(*first).total_cmp(&cost(*second)))
     }
 
     fn reaches(&self, hand: HandId, place: Vector3<f64>) -> bool {

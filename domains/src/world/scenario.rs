@@ -69,6 +69,28 @@ pub(crate) struct Script {
     pub(crate) goal: Vec<Fact>,
 }
 
+impl Task {
+    /// All tasks.
+    pub const ALL: [Self; 5] =
+        [Self::Full, Self::Guided, Self::StackOne, Self::StackTwo, Self::Nothing];
+
+    /// The name on a command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Full => "full",
+            Self::Guided => "guided",
+            Self::StackOne => "stack-one",
+            Self::StackTwo => "stack-two",
+            Self::Nothing => "nothing",
+        }
+    }
+
+    /// The task of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|task| task.name() == name)
+    }
+}
+
 impl Scenario {
     /// All scenarios.
     pub const ALL: [Self; 7] = [

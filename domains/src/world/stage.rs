@@ -154,7 +154,12 @@ impl Stage {
         let relative = self.palms[hand.index()].pose.inverse() * self.pose(object);
         let slides = self.is_slider(object);
         // Springs in terms of acceleration: frequency² and twice the frequency are critically damped.
-        let (straight, round) = if slides { (30.0_f32, 0.0) } else { (80.0, 250.0) };
+        // Arms give way to what is heavy, so that a small slant of the hand does not press it into the floor.
+        let (straight, round) = match (slides, thing.mass > 1.0) {
+            (true, _) => (30.0_f32, 0.0_f32),
+            (false, true) => (30.0, 12.0),
+            (false, false) => (80.0, 250.0),
+        };
         let mut joint = GenericJointBuilder::new(JointAxesMask::empty())
             .contacts_enabled(true)
             .local_frame1(space::pose(&relative))
