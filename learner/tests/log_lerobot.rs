@@ -1,4 +1,4 @@
-//! A table as LeRobot writes it, made here, goes in; the frames of one of its episodes come out.
+//! A table as `LeRobot` writes it, made here, goes in; the frames of one of its episodes come out.
 #![cfg(feature = "lerobot")]
 
 use std::fs::File;
@@ -115,8 +115,8 @@ fn what_is_not_there_is_said() {
     let bad = reader.next().expect("there is a row").expect_err("the list is too short");
     assert_eq!(bad.to_string(), "line 5: `red-cube`: there is no number 9 in `observation.state`");
     // Without an episode the second one begins before the first one ended.
-    let reader = open(&MAPPING.replace("\"episode\": 1,", "")).expect("all is there");
-    let bad = reader.filter_map(Result::err).next().expect("time runs backwards");
+    let mut reader = open(&MAPPING.replace("\"episode\": 1,", "")).expect("all is there");
+    let bad = reader.find_map(Result::err).expect("time runs backwards");
     assert!(bad.to_string().starts_with("line 5: `timestamp`: time runs backwards"), "{bad}");
     std::fs::remove_file(&path).expect("it is there");
 }

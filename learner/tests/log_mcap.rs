@@ -29,7 +29,7 @@ impl Cdr {
     }
 
     fn put<const N: usize>(&mut self, mut bytes: [u8; N]) -> &mut Self {
-        while (self.bytes.len() - 4) % N != 0 {
+        while !(self.bytes.len() - 4).is_multiple_of(N) {
             self.bytes.push(0);
         }
         if !self.little {
