@@ -90,7 +90,11 @@ fn holds(name: &str, least: usize) {
     copy(&root().join("domains"), &folder.path().join("domains"));
     fs::create_dir(folder.path().join("target")).expect("the folder is new");
     let seen = run_through(&page, folder.path());
-    assert!(seen.commands >= least, "{name} shows {} commands: has its form changed?", seen.commands);
+    assert!(
+        seen.commands >= least,
+        "{name} shows {} commands: has its form changed?",
+        seen.commands
+    );
     if std::env::var_os("INSTA_UPDATE").is_some_and(|how| how == "always") {
         fs::write(&path, &seen.page).expect("the page can be written");
         return;
@@ -144,8 +148,8 @@ fn masked(text: &str) -> String {
             rest = &rest[start..];
             let end = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
             let (number, after) = rest.split_at(end);
-            let time = number.contains('.') && after.starts_with('s')
-                || masked.ends_with("\"seconds\": ");
+            let time =
+                number.contains('.') && after.starts_with('s') || masked.ends_with("\"seconds\": ");
             masked.push_str(if time || after.starts_with(" KB") { "*" } else { number });
             rest = after;
         }
