@@ -113,7 +113,9 @@ pub fn deeds(record: &Record, mut takes: impl FnMut(HandId, ObjectId) -> bool) -
     }
     let mut deeds = Vec::new();
     for (number, grip) in grips.iter().enumerate() {
-        let lifted = own[number].iter().any(|turn| is_support(turn, grip.object));
+        // What changes nothing but itself being in the hand was taken, too.
+        let lifted =
+            own[number].is_empty() || own[number].iter().any(|turn| is_support(turn, grip.object));
         let helpers: Vec<(HandId, &Turn)> = shared
             .iter()
             .filter(|(of, _, _)| *of == number)
@@ -336,6 +338,8 @@ fn help(
     if there {
         return;
     }
+    // What needs both hands is done before either lets go.
+    deeds[main].at = deeds[main].at.min(grip.to - 1e-3).max(turn.time);
     let deed = Deed {
         verb: Verb::Hold,
         hand,
