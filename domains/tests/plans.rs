@@ -25,7 +25,15 @@ fn plan(lines: &[&str]) -> Vec<Vec<PlanStep>> {
 
 fn routine(action: &str, parameters: &[&str], doer: Doer, points: Vec<WayPoint>) -> Routine {
     let parameters = parameters.iter().map(|name| (*name).to_owned()).collect();
-    Routine { action: action.to_owned(), parameters, shown: Vec::new(), hands: vec![doer], points }
+    Routine {
+        action: action.to_owned(),
+        parameters,
+        shown: Vec::new(),
+        with: Vec::new(),
+        follows: false,
+        hands: vec![doer],
+        points,
+    }
 }
 
 fn point(anchor: Anchor, offset: Isometry3<f64>, grip: bool, time: f64) -> WayPoint {

@@ -16,6 +16,12 @@ pub struct Routine {
     /// The arguments with which it was shown, where that is known: what is done with others is done as with those that are most like them.
     #[serde(default)]
     pub shown: Vec<String>,
+    /// The actions that must be carried out at the same time.
+    #[serde(default)]
+    pub with: Vec<String>,
+    /// It goes to a place that somebody leaves at the same time, and so comes after that.
+    #[serde(default)]
+    pub follows: bool,
     /// The hands that take part.
     pub hands: Vec<Doer>,
     /// Where they come, in the order of their times.
@@ -70,26 +76,6 @@ pub enum Anchor {
 }
 
 impl Routine {
-    /// The same for another action, in which all hands first rest for so long, in seconds.
-    #[must_use]
-    pub fn after(&self, action: &str, rest: f64) -> Self {
-        let later =
-            self.points.iter().map(|point| WayPoint { time: point.time + rest, ..point.clone() });
-        let rests = (0..self.hands.len() as u32).filter_map(|hand| {
-            let first = self.points.iter().find(|point| point.hand == hand)?;
-            let offset = Isometry3::identity();
-            Some(WayPoint {
-                hand,
-                carried: None,
-                anchor: Anchor::Hand(hand),
-                offset,
-                grip: first.grip,
-                time: rest,
-            })
-        });
-        Self { action: action.to_owned(), points: rests.chain(later).collect(), ..self.clone() }
-    }
-
     /// Of all routines of an action the one that was shown with the most of these arguments; the first of several.
     pub fn nearest<'r>(
         routines: &'r [Routine],
@@ -131,6 +117,8 @@ mod tests {
             action: "put-on".to_owned(),
             parameters: vec!["?above".to_owned(), "?below".to_owned()],
             shown: Vec::new(),
+            with: vec!["hold".to_owned()],
+            follows: false,
             hands: vec![Doer::Any, Doer::Argument(0), Doer::Named("left-hand".to_owned())],
             points: vec![WayPoint {
                 hand: 0,

@@ -410,9 +410,6 @@ fn whole(
     (text, constrained)
 }
 
-/// Who follows another to a place waits so long until that one is gone, in seconds.
-const FOLLOW: f64 = 2.0;
-
 /// What came of demonstrations.
 struct Products<'a> {
     taught: &'a Taught,
@@ -488,11 +485,7 @@ fn write_beside(
         let own = routines.clone();
         for (name, like, follows) in constrained {
             for same in own.iter().filter(|routine| routine.action == *like) {
-                routines.push(if *follows {
-                    same.after(name, FOLLOW)
-                } else {
-                    Routine { action: name.clone(), ..same.clone() }
-                });
+                routines.push(Routine { action: name.clone(), follows: *follows, ..same.clone() });
             }
         }
         if !routines.is_empty() {

@@ -11,6 +11,7 @@ use crate::waypoints::{Anchor, Doer, Routine, WayPoint};
 
 use super::deed::{Deed, Deeds, Verb};
 use super::line::{Instance, Line};
+use super::record::Grip;
 use super::track::Tracks;
 
 /// How far a way may depart from its way points, in metres; a radian counts as 15 cm.
@@ -28,9 +29,6 @@ const LONGEST: f64 = 3.0;
 const MOST: usize = 32;
 /// Who leaves a place goes on until so far from it, in metres, for at most so long, in seconds.
 const GONE: (f64, f64) = (0.3, 1.5);
-
-/// What was let go lies where it will stay after so long, in seconds.
-const SETTLED: f64 = 0.5;
 
 /// One demonstration, with where everything was.
 #[derive(Debug, Clone, Copy)]
@@ -83,25 +81,29 @@ fn routine(shown: &Shown<'_>, learned: &Learned, instance: &Instance) -> Option<
         Verb::Take => {
             let object = deed.object?;
             let anchor = Anchor::Middle(of(object)?);
-            let base = shown.tracks.object(object, deed.at)?;
-            let start = scribe.begin_near(deed.at)?;
-            scribe.way(start, deed.at, base, anchor, false)?;
-            scribe.way(deed.at, deed.to.max(deed.at + STEP), base, anchor, true)?;
+            let grip = shown.grip(deed.hand, object, deed)?;
+            let (from, _) = shown.closed(&grip);
+            let base = shown.tracks.object(object, from)?;
+            let start = scribe.begin_near(from)?;
+            scribe.way(start, from, base, anchor, false)?;
+            scribe.way(from, shown.lifted(&grip, deed.to), base, anchor, true)?;
         }
         Verb::Put => {
             let object = deed.object?;
             let (support, anchor) = support(shown, deed, &of)?;
             let size = shown.header.objects[support.index()].size;
             // The support may have been brought there meanwhile, by another hand.
-            let base = shown.tracks.object(support, deed.at)? * lifted(size.z / 2.0);
-            let start = scribe.begin_high(deed.from, deed.at)?;
-            scribe.carried(start, deed.at, object, of(object)?, base, anchor)?;
-            scribe.away(deed.at, base, anchor)?;
+            let (_, to) = shown.closed(&shown.grip(deed.hand, object, deed)?);
+            let base = shown.tracks.object(support, to)? * raised(size.z / 2.0);
+            let start = scribe.begin_high(deed.from, to)?;
+            scribe.carried(start, to, object, of(object)?, base, anchor)?;
+            scribe.away(to, base, anchor)?;
         }
         Verb::Handle | Verb::Use | Verb::Push => {
             let object = deed.object?;
             let anchor = Anchor::Middle(of(object)?);
             let grip = shown.grip(deed.hand, object, deed);
+            let grip = grip.map(|grip| shown.closed(&grip));
             let base = shown.tracks.object(object, grip.map_or(deed.from, |(from, _)| from))?;
             if let Some((from, to)) = grip {
                 let start = scribe.begin_near(from)?;
@@ -143,11 +145,17 @@ fn routine(shown: &Shown<'_>, learned: &Learned, instance: &Instance) -> Option<
         }
     }
     let points = scribe.points;
+    let partners = learned.actions.iter().filter(|one| one.action == instance.action);
+    let with = partners
+        .flat_map(|one| &one.partners)
+        .map(|partner| learned.domain.actions[partner.action.index()].name.text.clone());
     let name = |id: &lang::model::ObjectId| shown.line.trace.objects[id.index()].name.text.clone();
     Some(Routine {
         action: action.name.text.clone(),
         parameters,
         shown: instance.arguments.iter().map(name).collect(),
+        with: with.collect(),
+        follows: false,
         hands: vec![doer],
         points,
     })
@@ -187,18 +195,81 @@ fn support(
     Some((on, anchor))
 }
 
-fn lifted(height: f64) -> Translation3<f64> {
+fn raised(height: f64) -> Translation3<f64> {
     Translation3::new(0.0, 0.0, height)
 }
 
+/// A thing that stays within so much of its place in the hand is held: metres, and radians.
+const RIGID: (f64, f64) = (0.015, 0.2);
+/// It was taken when it was so near to that place for the first time.
+const TIGHT: (f64, f64) = (0.005, 0.08);
+/// The grip of a hand may have been seen so much too late, and letting go too, in seconds.
+const UNSEEN: f64 = 2.0;
+/// What was taken is in the air when it is so far from where it was, in metres; that takes so long at most, in seconds.
+const LIFTED: (f64, f64) = (0.06, 4.0);
+
 impl Shown<'_> {
-    /// When a hand held something during a deed.
-    fn grip(&self, hand: HandId, object: ObjectId, deed: &Deed) -> Option<(f64, f64)> {
+    /// What a hand held during a deed.
+    fn grip(&self, hand: HandId, object: ObjectId, deed: &Deed) -> Option<Grip> {
         let grips = self.deeds.grips.iter();
         grips
             .filter(|grip| grip.hand == hand && grip.object == object)
             .find(|grip| grip.from <= deed.to && grip.to >= deed.from)
-            .map(|grip| (grip.from, grip.to))
+            .copied()
+    }
+
+    /// Where the thing is, seen from the hand.
+    fn within(&self, grip: &Grip, time: f64) -> Option<Isometry3<f64>> {
+        let hand = self.tracks.hand(grip.hand, time)?;
+        Some(hand.inverse() * self.tracks.object(grip.object, time)?)
+    }
+
+    /// When the hand closed and opened. Where grips are not measured, a grip is seen only when the thing moves along, and letting go only when the hand
+    /// is away; but the thing has its place in the hand from the one to the other.
+    fn closed(&self, grip: &Grip) -> (f64, f64) {
+        let alike = |one: &Isometry3<f64>, time: f64, (far, turned): (f64, f64)| {
+            self.within(grip, time).is_none_or(|other| {
+                (one.translation.vector - other.translation.vector).norm() <= far
+                    && one.rotation.angle_to(&other.rotation) <= turned
+            })
+        };
+        let same = |one: &Isometry3<f64>, time: f64| alike(one, time, RIGID);
+        let early = (grip.from + 0.15).min(f64::midpoint(grip.from, grip.to));
+        let late = (grip.to - 0.6).max(f64::midpoint(grip.from, grip.to));
+        let (mut from, mut to) = (grip.from, grip.to);
+        if let Some(place) = self.within(grip, early) {
+            while from - STEP >= (grip.from - UNSEEN).max(0.0) && same(&place, from - STEP) {
+                from -= STEP;
+            }
+            while from < grip.from && !alike(&place, from, TIGHT) {
+                from += STEP;
+            }
+        }
+        if let Some(place) = self.within(grip, late) {
+            while to - STEP > late && !same(&place, to) {
+                to -= STEP;
+            }
+        }
+        (from, to)
+    }
+
+    /// When what was taken is in the air, and not yet on its way down again.
+    fn lifted(&self, grip: &Grip, least: f64) -> f64 {
+        let (far, longest) = LIFTED;
+        let begin = grip.from;
+        let Some(there) = self.tracks.object(grip.object, begin) else { return least };
+        let end = (begin + longest).min(grip.to);
+        let mut time = begin + STEP;
+        while time < end {
+            let gone = self.tracks.object(grip.object, time).is_some_and(|here| {
+                (here.translation.vector - there.translation.vector).norm() >= far
+            });
+            if gone {
+                return time;
+            }
+            time += STEP;
+        }
+        least.max(begin + STEP)
     }
 }
 
@@ -266,10 +337,10 @@ impl Scribe<'_> {
         let tracks = self.shown.tracks;
         let foot = -self.shown.header.objects[object.index()].size.z / 2.0;
         // What is in the hand moves with it, and hands are tracked more densely.
-        let held =
-            tracks.hand(self.hand, to - STEP)?.inverse() * tracks.object(object, to + SETTLED)?;
+        let grip = Grip { hand: self.hand, object, from, to, open: false };
+        let held = self.shown.within(&grip, to - 2.0 * STEP)?;
         let poses =
-            samples(from, to, |time| Some(tracks.hand(self.hand, time)? * held * lifted(foot)))?;
+            samples(from, to, |time| Some(tracks.hand(self.hand, time)? * held * raised(foot)))?;
         for (time, pose) in simplified(&poses) {
             self.point(time, base, pose, anchor, Some(argument), Some(true));
         }

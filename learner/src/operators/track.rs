@@ -9,7 +9,7 @@ use crate::log::{Frame, HandId, Header, ObjectId};
 pub struct Tracks {
     hands: Vec<Track>,
     objects: Vec<Track>,
-    /// For each object the frames since the last place that was kept.
+    /// For each object the frames that are not yet looked at.
     recent: Vec<Track>,
 }
 
@@ -18,8 +18,9 @@ type Track = Vec<(f64, Isometry3<f64>)>;
 
 /// Poses of objects are averaged over so many frames.
 const BLOCK: usize = 8;
-/// An object that is so near to where it was did not move, in metres.
+/// An object that is so near to where it was did not move, in metres and radians.
 const STILL: f64 = 0.004;
+const TURNED: f64 = 0.05;
 /// Poses of a hand are averaged over so much before and after, in seconds.
 const WINDOW: f64 = 0.05;
 
@@ -42,19 +43,22 @@ impl Tracks {
             self.objects.iter_mut().zip(&mut self.recent).zip(&frame.objects)
         {
             recent.extend(object.as_ref().map(|object| (frame.time, object.pose)));
-            if recent.len() >= BLOCK || (kept.is_empty() && !recent.is_empty()) {
-                let time = recent[recent.len() / 2].0;
-                let pose = mean(recent);
-                let still = kept.last().is_some_and(|(_, before)| {
-                    (before.translation.vector - pose.translation.vector).norm() < STILL
-                        && before.rotation.angle_to(&pose.rotation) < 0.05
-                });
-                if !still {
-                    kept.push((time, pose));
+            if recent.len() < BLOCK {
+                if kept.is_empty() {
+                    kept.extend(recent.first().copied());
                 }
-                if recent.len() >= BLOCK {
-                    recent.clear();
-                }
+                continue;
+            }
+            let pose = mean(recent);
+            let before = around(kept, kept[kept.len() - 1].0);
+            let still = before.is_some_and(|before| {
+                (before.translation.vector - pose.translation.vector).norm() < STILL
+                    && before.rotation.angle_to(&pose.rotation) < TURNED
+            });
+            if still {
+                recent.clear();
+            } else {
+                kept.append(recent);
             }
         }
     }
@@ -75,10 +79,18 @@ impl Tracks {
 
     /// Where an object was; before it was first seen, where it was seen first.
     pub fn object(&self, object: ObjectId, time: f64) -> Option<Isometry3<f64>> {
-        let track = &self.objects[object.index()];
-        let place = track.partition_point(|(at, _)| *at <= time);
-        track.get(place.saturating_sub(1)).map(|(_, pose)| *pose)
+        around(&self.objects[object.index()], time)
     }
+}
+
+/// Where something was that stayed where it was seen last.
+fn around(track: &Track, time: f64) -> Option<Isometry3<f64>> {
+    let place = track.partition_point(|(at, _)| *at <= time);
+    let last = track.get(place.saturating_sub(1))?.0;
+    let middle = if time > last + WINDOW { last } else { time.max(last) };
+    let from = track.partition_point(|(at, _)| *at < middle - WINDOW);
+    let to = track.partition_point(|(at, _)| *at <= middle + WINDOW);
+    (from < to).then(|| mean(&track[from..to]))
 }
 
 /// The middle of poses that are near to one another.
