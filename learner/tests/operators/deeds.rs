@@ -56,7 +56,8 @@ fn what_is_dropped_and_taken_again_is_put_and_taken_twice() {
         6.0 + (on-top red blue) left holding
         6.1 left lets go";
     let lines = told(script);
-    let starts: Vec<&str> = ["left take red", "left put red", "left take red", "left put red"].into();
+    let starts: Vec<&str> =
+        ["left take red", "left put red", "left take red", "left put red"].into();
     assert_eq!(lines.len(), 4, "{lines:#?}");
     for (line, start) in lines.iter().zip(starts) {
         assert!(line.starts_with(start), "{lines:#?}");

@@ -67,7 +67,7 @@ fn clean() -> String {
     ROBOT
         .replace("      (clean ?plate)                             ; an old habit\n", "")
         .replace("\n    (clean ?plate - plate)", "")
-        .replace("(:types plate", "; caveat: allow(unused-predicate)\n  (:types plate")
+        .replace("(:predicates", "; caveat: allow(unused-predicate)\n  (:predicates")
 }
 
 #[test]
@@ -84,10 +84,15 @@ fn what_is_known_leaves_the_text_as_it_was() {
 fn what_was_done_without_a_precondition_takes_it_away_and_keeps_the_comments() {
     let extension = extended(ROBOT, PICK);
     assert_eq!(extension.refined, [("pick".to_owned(), vec!["(clean ?plate)".to_owned()])]);
-    let expected = ROBOT.replace("\n      (clean ?plate)                             ; an old habit", "                               ; an old habit");
+    let expected = ROBOT.replace(
+        "\n      (clean ?plate)                             ; an old habit",
+        "                               ; an old habit",
+    );
     let bare = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert_eq!(bare(&extension.text), bare(&expected));
-    for comment in ["; A robot that can", ";; It only takes", "; one thing at a time", "; the hand is free"] {
+    for comment in
+        ["; A robot that can", ";; It only takes", "; one thing at a time", "; the hand is free"]
+    {
         assert!(extension.text.contains(comment), "{}", extension.text);
     }
 }
@@ -126,7 +131,9 @@ fn a_name_that_means_something_else_gets_a_number() {
     assert_eq!(extension.added, ["open-drawer-2"]);
     assert_eq!(
         extension.conflicts,
-        ["there is an action `open-drawer` that does something else; what was shown is called `open-drawer-2`"]
+        [
+            "there is an action `open-drawer` that does something else; what was shown is called `open-drawer-2`"
+        ]
     );
     assert!(extension.text.contains("(:action open-drawer-2"), "{}", extension.text);
 }
@@ -138,14 +145,18 @@ fn an_action_that_adds_the_same_and_deletes_something_else_is_a_rival() {
     assert_eq!(extension.added, ["take-plate-from-table"]);
     assert_eq!(
         extension.conflicts,
-        ["`take-plate-from-table` makes the same true as `pick`, but not the same false; both are kept"]
+        [
+            "`take-plate-from-table` makes the same true as `pick`, but not the same false; both are kept"
+        ]
     );
 }
 
 #[test]
 fn an_action_is_known_in_whatever_order_its_parameters_stand() {
-    let text = clean()
-        .replace("(?plate - plate ?table - table)\n    :pre", "(?table - table ?plate - plate)\n    :pre");
+    let text = clean().replace(
+        "(?plate - plate ?table - table)\n    :pre",
+        "(?table - table ?plate - plate)\n    :pre",
+    );
     assert_ne!(text, clean());
     assert_eq!(extended(&text, PICK).known, [("pick".to_owned(), 1)]);
 }
@@ -158,7 +169,10 @@ fn the_only_precondition_leaves_an_empty_one() {
       (on ?plate ?table))",
         ":precondition (open-hand)",
     );
-    let text = text.replace("(hand-clear)                                 ; the hand", "(open-hand) (hand-clear) ; the hand");
+    let text = text.replace(
+        "(hand-clear)                                 ; the hand",
+        "(open-hand) (hand-clear) ; the hand",
+    );
     let extension = extended(&text, PICK);
     assert_eq!(extension.refined, [("pick".to_owned(), vec!["(open-hand)".to_owned()])]);
     assert!(extension.text.contains(":precondition ()"), "{}", extension.text);

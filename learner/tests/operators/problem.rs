@@ -45,8 +45,11 @@ fn what_the_domain_has_no_words_for_is_left_out() {
         ..Vocabulary::default()
     };
     let begin = problem::beginning(&model, record, words);
-    let facts: Vec<String> =
-        begin.facts.iter().map(|fact| format!("{} {}", fact.predicate, fact.arguments.join(" "))).collect();
+    let facts: Vec<String> = begin
+        .facts
+        .iter()
+        .map(|fact| format!("{} {}", fact.predicate, fact.arguments.join(" ")))
+        .collect();
     assert_eq!(facts, ["shut blue"]);
     // A plate is an item, as the header says; of tables and hands the domain does not know.
     let of = |name: &str, kind: &str| (name.to_owned(), kind.to_owned());

@@ -49,9 +49,7 @@ pub fn record(name: &str, script: &str) -> Record {
             "things" => header.objects.extend(things(rest)),
             "types" => {
                 let (name, parent) = rest.split_once(" - ").expect("a type and the one above it");
-                header
-                    .types
-                    .push(Type { name: name.to_owned(), parent: Some(parent.to_owned()) });
+                header.types.push(Type { name: name.to_owned(), parent: Some(parent.to_owned()) });
             }
             "holds" => record.initial.extend(facts(rest).map(|fact| told(&header, fact))),
             _ => {

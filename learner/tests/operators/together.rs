@@ -70,7 +70,8 @@ fn hands_in_teach_mode_are_tied_by_the_flag() {
         ["left take red", "right take blue", "left put red", "right put blue"]
     );
     // One hand alone is not taught together with another.
-    let lines: Vec<&str> = lines.into_iter().filter(|line| !line.starts_with("0.1 right")).collect();
+    let lines: Vec<&str> =
+        lines.into_iter().filter(|line| !line.starts_with("0.1 right")).collect();
     assert_eq!(ties(&lines.join("\n"), Synergy::Flag), [""; 0]);
 }
 
@@ -87,7 +88,7 @@ fn what_is_tied_becomes_a_joint_action() {
     insta::with_settings!({ description => BOTTLE, omit_expression => true }, {
         insta::assert_snapshot!("the lid of a bottle", text);
     });
-    assert!(text.contains("(:multi-agent"), "{text}");
+    assert!(text.contains(":multi-agent"), "{text}");
 }
 
 #[test]
@@ -105,7 +106,9 @@ fn by_the_thesis_busy_hands_only_act_together() {
     let agents = Options { agents: true, synergy: Synergy::Thesis, ..options() };
     let tied = text(&taught(&[BUSY], &agents));
     let free = text(&taught(&[BUSY], &Options { agents: true, ..options() }));
-    let joint = |text: &str| text.matches("(exists (?other").count() + text.matches("(put-cube-on-table ?").count();
+    let joint = |text: &str| {
+        text.matches("(exists (?other").count() + text.matches("(put-cube-on-table ?").count()
+    };
     assert!(joint(&tied) > joint(&free), "{tied}\n{free}");
     insta::with_settings!({ description => BUSY, omit_expression => true }, {
         insta::assert_snapshot!("two busy hands by the thesis", tied);

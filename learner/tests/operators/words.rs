@@ -15,9 +15,8 @@ use super::script;
 /// The deeds of a script, in which everything can be taken but drawers.
 pub fn deeds(text: &str) -> (Record, Deeds) {
     let record = script::record("shown", text);
-    let found = deed::deeds(&record, |_, object| {
-        record.header.objects[object.index()].kind != "drawer"
-    });
+    let found =
+        deed::deeds(&record, |_, object| record.header.objects[object.index()].kind != "drawer");
     (record, found)
 }
 
