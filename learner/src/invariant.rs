@@ -57,7 +57,9 @@ pub fn invariants(domain: &Domain, traces: &[Trace]) -> Vec<Invariant> {
                 );
             }
         }
-        for (joint, (before, after)) in trace.steps.iter().zip(states.iter().zip(&states[1..])) {
+        for (joint, (before, after)) in
+            trace.steps.iter().zip(states.iter().zip(states.iter().skip(1)))
+        {
             if joint.whole {
                 exchange(before, after, &mut exchanged);
             }

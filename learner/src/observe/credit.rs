@@ -50,10 +50,11 @@ impl Observer<'_> {
                 for &object in objects.iter().filter(loose) {
                     let holds = here.in_hand == Some(object);
                     let distance = here.distance(here.in_hand, object.index());
-                    let distance = if holds { 0.0 } else { distance.max(0.0) };
-                    if distance.is_nan() {
+                    // `max` would make 0 of the distance of a hand that is lost from sight, and a hand that nobody sees the one that touches.
+                    if !holds && distance.is_nan() {
                         continue;
                     }
+                    let distance = if holds { 0.0 } else { distance.max(0.0) };
                     let limit = if here.in_hand.is_some() {
                         self.config.touch.high
                     } else {
