@@ -7,6 +7,7 @@ mod costs;
 mod domains;
 mod excuses;
 mod joint;
+mod learning;
 mod listings;
 mod multiagent_page;
 mod replay;

@@ -72,10 +72,9 @@ pub fn extend(text: &str, domain: &Domain, learned: &Learned) -> Extension {
                 domain.actions[place].name.text
             ));
         }
-        if name != own.name.text {
+        if let Some(other) = namesake(&name, domain) {
             extension.conflicts.push(format!(
-                "there is an action `{}` that does something else; what was shown is called `{name}`",
-                own.name.text
+                "there is an action `{other}` that does something else; what was shown is called `{name}`"
             ));
         }
         extension.added.push(name.clone());
@@ -99,6 +98,14 @@ fn free_name(name: &str, domain: &Domain, new: &[(&Action, String)]) -> String {
         text = format!("{name}-{number}");
     }
     text
+}
+
+/// The action of the domain whose name is this one without its number.
+fn namesake<'d>(name: &str, domain: &'d Domain) -> Option<&'d str> {
+    let (stem, number) = name.rsplit_once('-')?;
+    let is_number = number.bytes().all(|letter| letter.is_ascii_digit());
+    let mut names = domain.actions.iter().map(|one| one.name.text.as_str());
+    names.find(|other| is_number && other.eq_ignore_ascii_case(stem))
 }
 
 /// What an action adds and deletes, if that does not depend on anything.

@@ -47,8 +47,8 @@ pub struct Taught {
     pub learned: Learned,
     /// Each demonstration as deeds and as a trace, in the order in which they came.
     pub lines: Vec<(Deeds, Line)>,
-    /// What the given domain has no words for, each with how often it came.
-    pub missing: Vec<(String, u32)>,
+    /// What the given domain has no words for, such as "the predicate `on-top`".
+    pub missing: Vec<String>,
 }
 
 /// Learns from demonstrations, each with the words that fit its header, in the words of `known` or in their own.

@@ -339,9 +339,11 @@ fn operators(
     for ((record, _), (_, line)) in demonstrations.iter().zip(&taught.lines) {
         tell(record, line, terminal);
     }
-    for (what, count) in &taught.missing {
-        let times = if *count == 1 { "once".to_owned() } else { format!("{count} times") };
-        terminal.say(format_args!("note: the domain does not have {what}, which came up {times}."));
+    if !taught.missing.is_empty() {
+        let missing = taught.missing.join(", ");
+        terminal.say(format_args!(
+            "note: the domain does not have {missing}; what was seen of that is left out."
+        ));
     }
     let mut constrained = Constrained::new();
     let text = match &known {

@@ -131,10 +131,10 @@ pub fn deeds(record: &Record, mut takes: impl FnMut(HandId, ObjectId) -> bool) -
             .map(|&(_, hand, turn)| (hand, turn))
             .collect();
         let first = deeds.len();
-        if !(lifted && takes(grip.hand, grip.object)) {
-            handle(record, grip, &own[number], &mut deeds);
-        } else {
+        if lifted && takes(grip.hand, grip.object) {
             take_and_put(record, grip, &own[number], &mut deeds);
+        } else {
+            handle(record, grip, &own[number], &mut deeds);
         }
         for (hand, turn) in helpers {
             help(record, &grips, hand, turn, first, &mut deeds);
@@ -142,6 +142,9 @@ pub fn deeds(record: &Record, mut takes: impl FnMut(HandId, ObjectId) -> bool) -
     }
     push(record, &loose, &mut deeds);
     go(&going, &mut deeds);
+    for deed in &mut deeds {
+        deed.changes = lasting(&deed.changes);
+    }
     sequence(&mut deeds);
     Deeds { deeds, grips, strays }
 }
@@ -242,8 +245,8 @@ fn take_and_put(record: &Record, grip: &Grip, turns: &[&Turn], deeds: &mut Vec<D
         .reduce(f64::max)
         .unwrap_or(grip.from)
         .max(grip.from);
-    let parted =
-        (lifted + TOGETHER).min((lifted + settled.min(grip.to.max(lifted))) / 2.0).max(lifted);
+    let rests = settled.min(grip.to.max(lifted));
+    let parted = (lifted + TOGETHER).min(f64::midpoint(lifted, rests)).max(lifted);
     let mut taking = Vec::new();
     let mut putting = Vec::new();
     let mut using: Vec<&Turn> = Vec::new();
@@ -311,6 +314,18 @@ fn take_and_put(record: &Record, grip: &Grip, turns: &[&Turn], deeds: &mut Vec<D
             ..empty
         });
     }
+}
+
+/// Changes without those that were undone again: what a thing brushes on its way is none.
+fn lasting(changes: &[(Told, bool)]) -> Vec<(Told, bool)> {
+    let mut list: Vec<(Told, bool)> = Vec::new();
+    for (told, holds) in changes {
+        match list.iter().position(|(other, was)| other == told && was != holds) {
+            Some(place) => drop(list.remove(place)),
+            None => list.push((told.clone(), *holds)),
+        }
+    }
+    list
 }
 
 /// Changes that come shortly after one another.

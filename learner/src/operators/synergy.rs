@@ -101,10 +101,13 @@ fn taught(record: &Record, deed: &Deed) -> bool {
     on > 1
 }
 
+/// How often two actions were tied together, and the arguments of the second in terms of the first, where they always were the same.
+type Tie = (u32, Vec<Option<Term>>);
+
 /// Writes down which actions demand one another: those that were tied together whenever one of them was seen.
 pub fn partners(lines: &[(&Deeds, &Line)], learned: &mut Learned) {
     let mut seen: BTreeMap<ActionId, u32> = BTreeMap::new();
-    let mut tied: BTreeMap<(ActionId, ActionId), (u32, Vec<Option<Term>>)> = BTreeMap::new();
+    let mut tied: BTreeMap<(ActionId, ActionId), Tie> = BTreeMap::new();
     for (deeds, line) in lines {
         for instance in &line.instances {
             *seen.entry(instance.action).or_default() += 1;

@@ -1,6 +1,6 @@
 //! What was observed between hands and objects goes in; facts in the words of a domain come out, and the domain that declares these words.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use lang::model::{Domain, ObjectId, PredicateId, TypeId};
 
@@ -88,8 +88,8 @@ pub struct Lexicon {
     /// Its words are given: what does not fit them is left out.
     closed: bool,
     predicates: BTreeMap<String, PredicateId>,
-    /// What was left out: predicates and types that the domain does not have, each with how often.
-    pub missing: BTreeMap<String, u32>,
+    /// What was left out: predicates and types that the domain does not have.
+    pub missing: BTreeSet<String>,
 }
 
 impl Lexicon {
@@ -105,7 +105,7 @@ impl Lexicon {
             .enumerate()
             .map(|(at, one)| (one.name.text.to_ascii_lowercase(), PredicateId(at as u32)))
             .collect();
-        Self { domain, closed, predicates, missing: BTreeMap::new() }
+        Self { domain, closed, predicates, missing: BTreeSet::new() }
     }
 
     /// The type of an object of the header: its own, or the nearest one above it that the domain has.
@@ -123,7 +123,7 @@ impl Lexicon {
         if self.closed {
             let found = chain.iter().find_map(|name| find_type(&self.domain, name));
             if found.is_none() {
-                *self.missing.entry(format!("the type `{kind}`")).or_default() += 1;
+                self.missing.insert(format!("the type `{kind}`"));
             }
             return found;
         }
@@ -166,8 +166,7 @@ impl Lexicon {
         let key = fact.predicate.to_ascii_lowercase();
         let Some(&predicate) = self.predicates.get(&key) else {
             if self.closed {
-                *self.missing.entry(format!("the predicate `{}`", fact.predicate)).or_default() +=
-                    1;
+                self.missing.insert(format!("the predicate `{}`", fact.predicate));
                 return None;
             }
             let types: Vec<Vec<TypeId>> = types.into_iter().map(|one| vec![one]).collect();
@@ -177,10 +176,8 @@ impl Lexicon {
         };
         let declared = &self.domain.predicates[predicate.index()].parameters;
         if declared.len() != arguments.len() {
-            *self
-                .missing
-                .entry(format!("`{}` of {} arguments", fact.predicate, arguments.len()))
-                .or_default() += 1;
+            let count = arguments.len();
+            self.missing.insert(format!("a predicate `{}` of {count} arguments", fact.predicate));
             return None;
         }
         let mut wider = Vec::new();

@@ -131,7 +131,12 @@ If it is 0, the problem has a plan as it is. If there is no plan, there is no ex
                 "\nA step claim-... makes sure that what a change makes true does not meet what excludes it.",
             );
         }
-        let style = Style { head, actions: self.notes.clone(), predicates: self.words.clone(), ..Style::default() };
+        let style = Style {
+            head,
+            actions: self.notes.clone(),
+            predicates: self.words.clone(),
+            ..Style::default()
+        };
         write::domain(&self.domain, &style)
     }
 
