@@ -95,6 +95,10 @@ pub struct Learn {
     /// Thresholds and words of observation, as --print-config prints them; what a file leaves out is as usual.
     #[arg(long, value_name = "FILE")]
     pub config: Option<PathBuf>,
+    /// What the topics of a recording (*.mcap) or the columns of a table (*.parquet) are about; see docs/logs.md. Only in programs that were built with
+    /// the features `mcap` and `lerobot`.
+    #[arg(long, value_name = "FILE")]
+    pub mapping: Option<PathBuf>,
     /// Print the thresholds and words of observation, and do nothing else.
     #[arg(long)]
     pub print_config: bool,
