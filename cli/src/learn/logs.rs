@@ -374,11 +374,14 @@ fn tell(record: &Record, line: &learner::operators::line::Line, terminal: &mut T
         "{}: {} frames, {:.1} s, {done}.",
         record.name, record.frames, record.end
     ));
-    if line.strays > 0 {
-        terminal.say(format_args!(
-            "note: {} changes came about with no hand near, and are credited to none.",
-            line.strays
-        ));
+    match line.strays {
+        0 => {}
+        1 => {
+            terminal.say("note: one change came about with no hand near, and is credited to none.")
+        }
+        count => terminal.say(format_args!(
+            "note: {count} changes came about with no hand near, and are credited to none."
+        )),
     }
     if !line.mute.is_empty() {
         terminal.say(format_args!(
