@@ -63,7 +63,7 @@ pub enum Kind {
     Csv,
     /// A recording of ROS 2.
     Mcap,
-    /// A table of a data set of LeRobot.
+    /// A table of a data set of `LeRobot`.
     Parquet,
     /// States and actions.
     Trace,
@@ -106,13 +106,11 @@ fn options(arguments: &Learn) -> rule::Options {
 
 /// Writes a text where it is wanted: to a file, or to the output.
 fn deliver(output: Option<&Path>, text: &str, terminal: &mut Terminal) -> Result<(), Complaint> {
-    match output {
-        Some(path) => files::write(path, text.as_bytes()),
-        None => {
-            terminal.data(text);
-            Ok(())
-        }
+    if let Some(path) = output {
+        return files::write(path, text.as_bytes());
     }
+    terminal.data(text);
+    Ok(())
 }
 
 /// Says what was learned and what was not.

@@ -122,11 +122,14 @@ fn head(learned: &Learned) -> String {
     for refusal in &learned.refused {
         lines.push(format!("Left out: {}.", refusal.describe(&learned.domain)));
     }
-    if learned.strays > 0 {
-        lines.push(format!(
-            "{} changes were seen of things that no action of the step was about.",
-            learned.strays
-        ));
+    match learned.strays {
+        0 => {}
+        1 => lines.push(
+            "One change was seen of a thing that no action of the step was about.".to_owned(),
+        ),
+        count => lines.push(format!(
+            "{count} changes were seen of things that no action of the step was about."
+        )),
     }
     lines.join("\n")
 }

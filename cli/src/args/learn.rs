@@ -120,7 +120,7 @@ pub struct Learn {
     /// Write what was demonstrated as a plan in the words of the domain.
     #[arg(long, value_name = "FILE")]
     pub plan_file: Option<PathBuf>,
-    /// Write the trace that the operators are learned from, as AMLGym and SAM read it.
+    /// Write the trace that the operators are learned from, in the form that `AMLGym` and SAM read.
     #[arg(long, value_name = "FILE")]
     pub trace: Option<PathBuf>,
     /// What happens at a line that cannot be read.

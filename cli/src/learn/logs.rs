@@ -136,7 +136,6 @@ fn see(
     for observation in observer.finish() {
         take(&observation)?;
     }
-    drop(take);
     segments.extend(segmenter.finish());
     bar.finish_and_clear();
     if bad > NAMED {
@@ -299,14 +298,13 @@ fn operators(
         ));
     }
     let mut constrained = Constrained::new();
-    let text = match &known {
-        Some((domain, source, _)) => super::extend::merged(source, domain, &learned, terminal),
-        None => {
-            report(&learned, terminal);
-            let (text, moves) = whole(arguments, config, &taught, &learned);
-            constrained = moves;
-            text
-        }
+    let text = if let Some((domain, source, _)) = &known {
+        super::extend::merged(source, domain, &learned, terminal)
+    } else {
+        report(&learned, terminal);
+        let (text, moves) = whole(arguments, config, &taught, &learned);
+        constrained = moves;
+        text
     };
     let products =
         Products { taught: &taught, learned: &learned, text: &text, constrained: &constrained };
@@ -327,11 +325,14 @@ fn tell(record: &Record, line: &learner::operators::line::Line, terminal: &mut T
         "{}: {} frames, {:.1} s, {done}.",
         record.name, record.frames, record.end
     ));
-    if line.strays > 0 {
-        terminal.say(format_args!(
-            "note: {} changes came about with no hand near, and are credited to none.",
-            line.strays
-        ));
+    match line.strays {
+        0 => {}
+        1 => {
+            terminal.say("note: one change came about with no hand near, and is credited to none.")
+        }
+        count => terminal.say(format_args!(
+            "note: {count} changes came about with no hand near, and are credited to none."
+        )),
     }
     if !line.mute.is_empty() {
         terminal.say(format_args!(
