@@ -1,7 +1,6 @@
 //! `caveat excuse` from the command line to what a person or a program reads: the answers are kept in snapshots, each with its command line.
 
 mod meaning;
-mod page;
 mod worlds;
 
 use std::ffi::OsString;

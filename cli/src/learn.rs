@@ -1,5 +1,6 @@
 //! `caveat learn`: logs or traces go in; a domain comes out, or a domain that was there with what is new in it.
 
+mod open;
 mod logs;
 mod traces;
 mod extend;
@@ -60,6 +61,10 @@ pub enum Kind {
     Json,
     /// A log as CSV.
     Csv,
+    /// A recording of ROS 2.
+    Mcap,
+    /// A table of a data set of `LeRobot`.
+    Parquet,
     /// States and actions.
     Trace,
 }
@@ -69,8 +74,11 @@ fn kind(path: &Path) -> Result<Kind, Complaint> {
     if files::is_stdin(path) {
         return Ok(Kind::Json);
     }
-    if path.extension().is_some_and(|end| end.eq_ignore_ascii_case("csv")) {
-        return Ok(Kind::Csv);
+    let end = path.extension().and_then(|end| end.to_str()).unwrap_or_default();
+    for (name, kind) in [("csv", Kind::Csv), ("mcap", Kind::Mcap), ("parquet", Kind::Parquet)] {
+        if end.eq_ignore_ascii_case(name) {
+            return Ok(kind);
+        }
     }
     let first = files::first_byte(path)?;
     Ok(match first {
@@ -98,13 +106,11 @@ fn options(arguments: &Learn) -> rule::Options {
 
 /// Writes a text where it is wanted: to a file, or to the output.
 fn deliver(output: Option<&Path>, text: &str, terminal: &mut Terminal) -> Result<(), Complaint> {
-    match output {
-        Some(path) => files::write(path, text.as_bytes()),
-        None => {
-            terminal.data(text);
-            Ok(())
-        }
+    if let Some(path) = output {
+        return files::write(path, text.as_bytes());
     }
+    terminal.data(text);
+    Ok(())
 }
 
 /// Says what was learned and what was not.

@@ -22,7 +22,7 @@ fn main() {
         println!("written: {:.2} s, {:.0} MB", start.elapsed().as_secs_f64(), size as f64 / 1e6);
     }
     for observing in [false, true] {
-        let start = Instant::now();
+        let (start, busy) = (Instant::now(), processor());
         let input = BufReader::with_capacity(1 << 16, File::open(&path).expect("the log is there"));
         let mut reader = json::Reader::new(input).expect("the header is well formed");
         let header = reader.header().clone();
@@ -46,11 +46,19 @@ fn main() {
         }
         segments += segmenter.finish().len();
         let seconds = start.elapsed().as_secs_f64();
+        let busy = processor() - busy;
         println!(
-            "{frames} frames, {segments} segments, {changes} changes: {seconds:.2} s, {} at most",
+            "{frames} frames, {segments} segments, {changes} changes: {seconds:.2} s, {busy:.2} s of the processor, {} at most",
             memory()
         );
     }
+}
+
+/// How many seconds the processor spent on this process, as Linux tells it in hundredths.
+fn processor() -> f64 {
+    let line = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let numbers = line.rsplit(") ").next().unwrap_or_default().split_whitespace();
+    numbers.skip(11).take(2).filter_map(|ticks| ticks.parse::<f64>().ok()).sum::<f64>() / 100.0
 }
 
 /// The most memory that this process ever had, as Linux tells it.

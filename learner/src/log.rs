@@ -4,6 +4,7 @@
 //! Whatever units a file has, what is read from it has these.
 //!
 //! - [`json`] reads and writes JSON Lines, the format of `docs/logs.md`; [`csv`] the same as a table.
+//! - With the features of those names, `mcap` reads recordings of ROS 2 and `lerobot` data sets of `LeRobot`.
 //! - [`BadLine`] is what is wrong with a line.
 
 mod fault;
@@ -12,6 +13,12 @@ mod header;
 mod sample;
 pub mod json;
 pub mod csv;
+#[cfg(feature = "mcap")]
+mod cdr;
+#[cfg(feature = "mcap")]
+pub mod mcap;
+#[cfg(feature = "lerobot")]
+pub mod lerobot;
 
 pub use fault::{BadLine, Fault};
 pub(crate) use header::syntax;

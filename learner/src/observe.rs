@@ -251,6 +251,8 @@ impl<'a> Observer<'a> {
         let time = self.times[index];
         let number = self.first + index as u64;
         self.passed += 1;
+        let around = track::window(index, &self.times, self.config.smooth);
+        let close = track::window(index, &self.times, self.config.smooth.min(0.025));
         let mut met = Vec::new();
         for (object, what) in self.header.objects.iter().enumerate() {
             let body = &mut self.bodies[object];
@@ -264,9 +266,7 @@ impl<'a> Observer<'a> {
                         ..*body
                     };
                 }
-            } else if let Some((pose, open)) =
-                self.objects[object].pose(index, &self.times, self.config.smooth)
-            {
+            } else if let Some((pose, open)) = self.objects[object].pose(index, around) {
                 *body =
                     Body { shape: Some(Shape::new(pose, &what.size)), open, lost: false, ..*body };
             } else {
@@ -282,9 +282,7 @@ impl<'a> Observer<'a> {
         let mut places = Vec::new();
         let mut rewrites: Vec<(usize, Rewrite)> = Vec::new();
         for (hand, (grip, teach, given)) in raw.hands.into_iter().enumerate() {
-            let pose = self.hands[hand]
-                .pose(index, &self.times, self.config.smooth.min(0.025))
-                .map(|pose| pose.0);
+            let pose = self.hands[hand].pose(index, close).map(|pose| pose.0);
             let speed = self.hands[hand].speed(index, &self.times, self.config.window);
             let moving = &mut self.moving[hand];
             let turned = moving.step((number, time), speed, &self.config);
@@ -486,23 +484,24 @@ impl<'a> Observer<'a> {
         self.bodies.iter().map(|body| one(body).map_or(f32::NAN, |far| far as f32)).collect()
     }
 
-    /// The distances of a held object to all others.
+    /// The distances of a held object to all others that hands act on; not numbers for the rest.
     fn gaps(&self, held: ObjectId) -> Vec<f32> {
-        let one = |body: &Body| {
-            let (held, other) = (self.bodies[held.index()].shape?, body.shape?);
+        let one = |(body, loose): (&Body, &bool)| {
+            let (held, other) = (self.bodies[held.index()].shape?, body.shape.filter(|_| *loose)?);
             let far = (held.middle() - other.middle()).norm();
             Some(match self.config.measure {
                 Measure::Centre => far,
-                // Too far away for its exact distance to matter.
+                // Far from touching, the distance of the balls around both says enough.
                 Measure::Surface
-                    if far - held.radius - other.radius > 2.0 * self.config.reach.high =>
+                    if far - held.radius - other.radius > 2.0 * self.config.touch.high =>
                 {
                     far - held.radius - other.radius
                 }
                 Measure::Surface => held.separation(&other),
             })
         };
-        self.bodies.iter().map(|body| one(body).map_or(f32::NAN, |far| far as f32)).collect()
+        let bodies = self.bodies.iter().zip(&self.loose);
+        bodies.map(|pair| one(pair).map_or(f32::NAN, |far| far as f32)).collect()
     }
 }
 

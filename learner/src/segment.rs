@@ -1,8 +1,8 @@
 //! Observations go in, frame by frame; for each hand come out the activities in which it spent its time, by the rules of table 3.1 of the thesis.
 //!
-//! - [`Tree`]: from what a hand does in a frame to its activity; [`induce`] learns one from annotated frames.
+//! - [`Tree`]: from what a hand does in a frame to its activity; [`induce()`] learns one from annotated frames.
 //! - [`Segmenter`]: from the activities of frames to [`Segment`]s that last.
-//! - [`timeline`] and [`picture`] show segments as text and as SVG, [`score`] holds them against the truth.
+//! - [`timeline()`] and [`picture()`] show segments as text and as SVG, [`score()`] holds them against the truth.
 
 mod induce;
 mod picture;

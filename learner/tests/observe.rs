@@ -253,6 +253,19 @@ fn what_is_lost_stays_as_it_was() {
 }
 
 #[test]
+fn a_hand_that_nobody_sees_gets_no_credit() {
+    let mut scene = stacking(0.001);
+    for frame in &mut scene.frames {
+        frame.hands[1] = None;
+    }
+    let observations = observe(&scene.header, &Config::default(), &scene.frames);
+    let changes = || observations.iter().skip(1).flat_map(|one| &one.changes);
+    let moved = changes().filter(|change| change.fact.predicate == "on-top").count();
+    assert_eq!(moved, 2, "the cube leaves the table and comes to rest on the other one");
+    assert!(changes().all(|change| change.credits.iter().all(|credit| credit.hand == LEFT)));
+}
+
+#[test]
 fn every_frame_gets_one_observation_and_they_come_soon() {
     let scene = stacking(0.002);
     let config = Config::default();

@@ -51,7 +51,8 @@ fn names(scene: &Scene, hand: HandId) -> Vec<String> {
                 |object: learner::log::ObjectId| scene.header.objects[object.index()].name.clone();
             let mut text = segment.activity.to_string();
             for object in [segment.in_hand, segment.acted_on].into_iter().flatten() {
-                text += &format!(" {}", name(object));
+                text += " ";
+                text += &name(object);
             }
             text
         })

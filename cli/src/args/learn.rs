@@ -95,6 +95,10 @@ pub struct Learn {
     /// Thresholds and words of observation, as --print-config prints them; what a file leaves out is as usual.
     #[arg(long, value_name = "FILE")]
     pub config: Option<PathBuf>,
+    /// What the topics of a recording (*.mcap) or the columns of a table (*.parquet) are about; see docs/logs.md. Only in programs that were built with
+    /// the features `mcap` and `lerobot`.
+    #[arg(long, value_name = "FILE")]
+    pub mapping: Option<PathBuf>,
     /// Print the thresholds and words of observation, and do nothing else.
     #[arg(long)]
     pub print_config: bool,
@@ -116,7 +120,7 @@ pub struct Learn {
     /// Write what was demonstrated as a plan in the words of the domain.
     #[arg(long, value_name = "FILE")]
     pub plan_file: Option<PathBuf>,
-    /// Write the trace that the operators are learned from, as AMLGym and SAM read it.
+    /// Write the trace that the operators are learned from, in the form that `AMLGym` and SAM read.
     #[arg(long, value_name = "FILE")]
     pub trace: Option<PathBuf>,
     /// What happens at a line that cannot be read.

@@ -1,12 +1,12 @@
 //! Logs of demonstrations go in; operators, problems, plans, way points and time lines come out.
 
 use std::fs::File;
-use std::io::{self, BufRead, BufReader};
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use lang::model::Domain;
-use learner::log::{BadLine, Frame, Header, csv, json};
+use learner::log::{BadLine, Header};
 use learner::moves::{self, Constrained};
 use learner::observe::{Config, Observer, Vocabulary};
 use learner::operators::record::{Record, Recorder};
@@ -20,7 +20,7 @@ use learner::segment::{self, Induction, Samples, Segment, Segmenter, Tree};
 use learner::waypoints::Routine;
 use learner::{problem, truth};
 
-use super::{Failure, Kind, deliver, groups, options, report, text, verify, write_with};
+use super::{Failure, Kind, deliver, groups, open, options, report, text, verify, write_with};
 use crate::args::learn::{BadLines, Learn, RuleName, SynergyName};
 use crate::exit::Exit;
 use crate::files::{self, Complaint};
@@ -40,53 +40,6 @@ pub fn config(arguments: &Learn) -> Result<Config, Complaint> {
     match wrong {
         Some(wrong) => Err(Complaint::new(format!("`{}`: {wrong}", files::name(path)))),
         None => Ok(config),
-    }
-}
-
-/// A log of either kind.
-enum Log {
-    Json(Box<json::Reader<Box<dyn BufRead>>>),
-    Csv(Box<csv::Reader<Box<dyn BufRead>>>),
-}
-
-impl Log {
-    fn open(path: &Path, kind: Kind) -> Result<Self, Complaint> {
-        let input: Box<dyn BufRead> = if files::is_stdin(path) {
-            Box::new(BufReader::new(io::stdin()))
-        } else {
-            let file = File::open(path).map_err(|error| {
-                Complaint::new(format!("`{}` cannot be read: {error}", files::name(path)))
-            })?;
-            Box::new(BufReader::with_capacity(1 << 18, file))
-        };
-        let bad = |bad: BadLine| Complaint::new(format!("{}: {bad}", files::name(path)));
-        Ok(match kind {
-            Kind::Csv => Self::Csv(Box::new(csv::Reader::new(input).map_err(bad)?)),
-            Kind::Json | Kind::Trace => {
-                Self::Json(Box::new(json::Reader::new(input).map_err(bad)?))
-            }
-        })
-    }
-
-    fn header(&self) -> &Header {
-        match self {
-            Self::Json(reader) => reader.header(),
-            Self::Csv(reader) => reader.header(),
-        }
-    }
-
-    fn consumed(&self) -> u64 {
-        match self {
-            Self::Json(reader) => reader.consumed(),
-            Self::Csv(reader) => reader.consumed(),
-        }
-    }
-
-    fn next(&mut self) -> Option<Result<Frame, BadLine>> {
-        match self {
-            Self::Json(reader) => reader.next(),
-            Self::Csv(reader) => reader.next(),
-        }
     }
 }
 
@@ -119,7 +72,7 @@ fn see(
     samples: Option<(&Path, &mut Samples)>,
     terminal: &mut Terminal,
 ) -> Result<Seen, Failure> {
-    let mut log = Log::open(path, kind)?;
+    let mut log = open::open(path, kind, watch.arguments.mapping.as_deref())?;
     let header = log.header().clone();
     let name = path
         .file_name()
@@ -183,7 +136,6 @@ fn see(
     for observation in observer.finish() {
         take(&observation)?;
     }
-    drop(take);
     segments.extend(segmenter.finish());
     bar.finish_and_clear();
     if bad > NAMED {
@@ -351,18 +303,17 @@ fn operators(
         }
     }
     let mut constrained = Constrained::new();
-    let text = match &known {
-        Some((domain, source, _)) => super::extend::merged(source, domain, &learned, terminal),
-        None => {
-            if learned.actions.is_empty() && learned.refused.is_empty() {
-                terminal.say("No operators were learned: nothing changed that a hand did.");
-            } else {
-                report(&learned, terminal);
-            }
-            let (text, moves) = whole(arguments, config, &taught, &learned);
-            constrained = moves;
-            text
+    let text = if let Some((domain, source, _)) = &known {
+        super::extend::merged(source, domain, &learned, terminal)
+    } else {
+        if learned.actions.is_empty() && learned.refused.is_empty() {
+            terminal.say("No operators were learned: nothing changed that a hand did.");
+        } else {
+            report(&learned, terminal);
         }
+        let (text, moves) = whole(arguments, config, &taught, &learned);
+        constrained = moves;
+        text
     };
     let products =
         Products { taught: &taught, learned: &learned, text: &text, constrained: &constrained };

@@ -1,5 +1,7 @@
 //! A domain, a problem and what was demonstrated, all as text, go in; whether the demonstration is a plan in these words comes out.
 
+use std::fmt::Write;
+
 use lang::execute::Executor;
 use lang::execute::joint::Concurrency;
 use lang::model::{Domain, Problem};
@@ -63,9 +65,9 @@ impl Told {
                 let words: Vec<&str> =
                     std::iter::once(name).chain(arguments).map(String::as_str).collect();
                 if agents {
-                    text.push_str(&format!("{number}: "));
+                    let _ = write!(text, "{number}: ");
                 }
-                text.push_str(&format!("({})\n", words.join(" ")));
+                let _ = writeln!(text, "({})", words.join(" "));
             }
         }
         text

@@ -135,6 +135,15 @@ struct Part<'plan> {
     holds: Option<ObjectId>,
 }
 
+/// Steps of a joint step that are done at once.
+struct Turn<'plan> {
+    /// They follow somebody.
+    follows: bool,
+    steps: Vec<&'plan PlanStep>,
+    /// Where their hands will be.
+    way: Vec<Vector3<f64>>,
+}
+
 impl Run {
     /// One joint step; false if it cannot be done.
     ///
@@ -169,7 +178,7 @@ impl Run {
             }
         }
         groups.sort_by_key(|(follows, _)| *follows);
-        let mut turns: Vec<(bool, Vec<&PlanStep>, Vec<Vector3<f64>>)> = Vec::new();
+        let mut turns: Vec<Turn<'s>> = Vec::new();
         for (follows, group) in groups {
             let way: Vec<Vector3<f64>> =
                 group.iter().flat_map(|step| self.outline(step, found(step))).collect();
@@ -177,14 +186,14 @@ impl Run {
                 way.iter().all(|one| other.iter().all(|two| (one - two).norm() >= ROOM))
             };
             match turns.last_mut() {
-                Some((last, turn, ways)) if *last == follows && clear(ways) => {
-                    turn.extend(group);
-                    ways.extend(way);
+                Some(last) if last.follows == follows && clear(&last.way) => {
+                    last.steps.extend(group);
+                    last.way.extend(way);
                 }
-                _ => turns.push((follows, group, way)),
+                _ => turns.push(Turn { follows, steps: group, way }),
             }
         }
-        turns.into_iter().map(|(_, turn, _)| turn).collect()
+        turns.into_iter().map(|turn| turn.steps).collect()
     }
 
     /// Roughly where the hands of a step will be: points of their ways, not far from one another.

@@ -2,6 +2,7 @@
 //!
 //! A log is read line by line into memory that is used again, so that it may be of any length.
 
+mod fast;
 mod frame;
 mod write;
 
@@ -89,7 +90,10 @@ impl<R: BufRead> Iterator for Reader<R> {
                 return Some(Err(error));
             }
         };
-        let read = frame::read(line, &self.header, &mut self.index, self.scale, self.before);
+        let read = match fast::read(line, &self.header, self.scale, self.before) {
+            Some(frame) => Ok(frame),
+            None => frame::read(line, &self.header, &mut self.index, self.scale, self.before),
+        };
         Some(match read {
             Ok(frame) => {
                 self.before = Some(frame.time);

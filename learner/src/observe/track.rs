@@ -106,21 +106,14 @@ impl Track {
         self.row.remove(0);
     }
 
-    /// The pose at a frame, averaged over so many seconds before and after; none where it is lost.
-    pub fn pose(
-        &self,
-        index: usize,
-        times: &VecDeque<f64>,
-        half: f64,
-    ) -> Option<(Isometry3<f64>, f64)> {
+    /// The pose at a frame, averaged over a [`window`] around it; none where it is lost.
+    pub fn pose(&self, index: usize, (from, to): (usize, usize)) -> Option<(Isometry3<f64>, f64)> {
         self.samples[index]?;
         let mut place = Vector3::zeros();
         let mut turn = Quaternion::new(0.0, 0.0, 0.0, 0.0);
         let mut open = 0.0;
         let mut count = 0.0;
         let first = self.samples[index].map(|sample| sample.turn.into_inner())?;
-        // The window is as wide before as after, so that a steady motion is not pulled to one side.
-        let (from, to) = window(index, times, half);
         for sample in self.samples.range(from..=to).flatten() {
             place += sample.place;
             let other = sample.turn.into_inner();
@@ -194,8 +187,8 @@ where
     Some((slope, row[1]))
 }
 
-/// The frames around one that are at most so many seconds away, as many before as after.
-fn window(index: usize, times: &VecDeque<f64>, half: f64) -> (usize, usize) {
+/// The frames around one that are at most so many seconds away, as many before as after, so that a steady motion is not pulled to one side.
+pub(super) fn window(index: usize, times: &VecDeque<f64>, half: f64) -> (usize, usize) {
     let now = times[index];
     let room = index.min(times.len() - 1 - index);
     let mut wide = 0;

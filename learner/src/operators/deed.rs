@@ -113,7 +113,18 @@ pub fn deeds(record: &Record, mut takes: impl FnMut(HandId, ObjectId) -> bool) -
     }
     let mut deeds = Vec::new();
     for (number, grip) in grips.iter().enumerate() {
-        let lifted = own[number].iter().any(|turn| is_support(turn, grip.object));
+        // What another hand worked on meanwhile was taken even if it stayed where it was.
+        let helps = own[number].is_empty()
+            && !grips.iter().any(|other| {
+                other.object == grip.object
+                    && other.hand != grip.hand
+                    && other.from < grip.to
+                    && other.to > grip.from
+            })
+            && shared.iter().any(|(_, hand, turn)| {
+                *hand == grip.hand && grip_of(&grips, *hand, turn) == Some(number)
+            });
+        let lifted = helps || own[number].iter().any(|turn| is_support(turn, grip.object));
         let helpers: Vec<(HandId, &Turn)> = shared
             .iter()
             .filter(|(of, _, _)| *of == number)
@@ -351,6 +362,8 @@ fn help(
     if there {
         return;
     }
+    // What needs both hands is done before either lets go.
+    deeds[main].at = deeds[main].at.min(grip.to - 1e-3).max(turn.time);
     let deed = Deed {
         verb: Verb::Hold,
         hand,

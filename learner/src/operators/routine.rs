@@ -90,14 +90,19 @@ fn routine(shown: &Shown<'_>, learned: &Learned, instance: &Instance) -> Option<
         }
         Verb::Put => {
             let object = deed.object?;
-            let (support, anchor) = support(shown, deed, &of)?;
-            let size = shown.header.objects[support.index()].size;
-            // The support may have been brought there meanwhile, by another hand.
             let (_, to) = shown.closed(&shown.grip(deed.hand, object, deed)?);
-            let base = shown.tracks.object(support, to)? * raised(size.z / 2.0);
-            let start = scribe.begin_high(deed.from, to)?;
-            scribe.carried(start, to, object, of(object)?, base, anchor)?;
-            scribe.away(to, base, anchor)?;
+            if let Some((support, anchor)) = support(shown, deed, &of) {
+                let size = shown.header.objects[support.index()].size;
+                // The support may have been brought there meanwhile, by another hand.
+                let base = shown.tracks.object(support, to)? * raised(size.z / 2.0);
+                let start = scribe.begin_high(deed.from, to)?;
+                scribe.carried(start, to, object, of(object)?, base, anchor)?;
+                scribe.away(to, base, anchor)?;
+            } else {
+                // It is let go where it is.
+                scribe.begin = to;
+                scribe.away(to, shown.tracks.object(object, to)?, Anchor::Middle(of(object)?))?;
+            }
         }
         Verb::Handle | Verb::Use | Verb::Push => {
             let object = deed.object?;
@@ -201,8 +206,10 @@ fn raised(height: f64) -> Translation3<f64> {
 
 /// A thing that stays within so much of its place in the hand is held: metres, and radians.
 const RIGID: (f64, f64) = (0.015, 0.2);
-/// It was taken when it was so near to that place for the first time.
+/// It was taken when it was so near to that place for the first time, or when the hand stopped before that.
 const TIGHT: (f64, f64) = (0.005, 0.08);
+/// A hand that is slower stands still, in metres per second.
+const STOPPED: f64 = 0.025;
 /// The grip of a hand may have been seen so much too late, and letting go too, in seconds.
 const UNSEEN: f64 = 2.0;
 /// What was taken is in the air when it is so far from where it was, in metres; that takes so long at most, in seconds.
@@ -241,7 +248,7 @@ impl Shown<'_> {
             while from - STEP >= (grip.from - UNSEEN).max(0.0) && same(&place, from - STEP) {
                 from -= STEP;
             }
-            while from < grip.from && !alike(&place, from, TIGHT) {
+            while from < grip.from && !alike(&place, from, TIGHT) && !self.rests(grip.hand, from) {
                 from += STEP;
             }
         }
@@ -251,6 +258,15 @@ impl Shown<'_> {
             }
         }
         (from, to)
+    }
+
+    /// Whether a hand stands still.
+    fn rests(&self, hand: HandId, time: f64) -> bool {
+        let place = |time| Some(self.tracks.hand(hand, time)?.translation.vector);
+        let (Some(before), Some(after)) = (place(time - STEP), place(time + STEP)) else {
+            return false;
+        };
+        (after - before).norm() < 2.0 * STEP * STOPPED
     }
 
     /// When what was taken is in the air, and not yet on its way down again.
