@@ -338,7 +338,7 @@ fn tell(record: &Record, line: &learner::operators::line::Line, terminal: &mut T
     match line.strays {
         0 => {}
         1 => {
-            terminal.say("note: one change came about with no hand near, and is credited to none.")
+            terminal.say("note: one change came about with no hand near, and is credited to none.");
         }
         count => terminal.say(format_args!(
             "note: {count} changes came about with no hand near, and are credited to none."
