@@ -94,7 +94,7 @@ fn demo(arguments: &Demo, terminal: &mut Terminal) -> Result<Exit, Complaint> {
     };
     if !scenario.tasks().contains(&task) {
         return Err(Complaint::with_help(
-            format!("that is not shown in the world `{}`", scenario.name()),
+            format!("`{}` is not shown in the world `{}`", task.name(), scenario.name()),
             "`caveat simulate list` says what is",
         ));
     }
@@ -179,10 +179,13 @@ fn carry_out(arguments: &Run, terminal: &mut Terminal) -> Result<Exit, Complaint
     }
     let length = outcome.frames.len() as f64 / world::RATE;
     let said = if outcome.reached { "is reached" } else { "is not reached" };
+    let steps = match plan.len() {
+        1 => "one step".to_owned(),
+        count => format!("{count} steps"),
+    };
     terminal.line(format_args!(
-        "The goal {} {said} after {} steps and {length:.1} s.",
-        condition(&goal.facts),
-        plan.len()
+        "The goal {} {said} after {steps} and {length:.1} s.",
+        condition(&goal.facts)
     ));
     Ok(if outcome.reached { Exit::Done } else { Exit::Findings })
 }

@@ -72,8 +72,8 @@ fn logs_that_cannot_be_read_are_refused_with_the_line() {
 #[test]
 fn bad_lines_are_named_and_left_out_when_asked() {
     let (desk, mut lines) = opened();
-    for number in 10..18 {
-        lines[number] = lines[number].replacen("\"red-plate\"", "\"rod-plate\"", 1);
+    for line in &mut lines[10..18] {
+        *line = line.replacen("\"red-plate\"", "\"rod-plate\"", 1);
     }
     lines.swap(30, 31);
     desk.write("bad.jsonl", &lines.join("\n"));

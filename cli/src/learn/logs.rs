@@ -13,7 +13,7 @@ use learner::operators::record::{Record, Recorder};
 use learner::operators::routine::{Shown, routines};
 use learner::operators::synergy::Synergy;
 use learner::operators::track::Tracks;
-use learner::operators::words::Words;
+use learner::operators::words::{ACTOR, Words};
 use learner::operators::{Options, Taught, learn as learn_operators, letter};
 use learner::rule::Learned;
 use learner::segment::{self, Induction, Samples, Segment, Segmenter, Tree};
@@ -187,9 +187,9 @@ pub fn learn(
         Watch { arguments, config, tree: Tree::published(), tracked: arguments.output.is_some() };
     if !arguments.truth.is_empty() && arguments.truth.len() != arguments.files.len() {
         return Err(Some(Complaint::new(format!(
-            "there are {} files of annotated frames for {} logs; each needs its own",
-            arguments.truth.len(),
-            arguments.files.len()
+            "{} logs need as many files of annotated frames, and --truth names {}",
+            arguments.files.len(),
+            arguments.truth.len()
         ))));
     }
     let mut samples = Samples::default();
@@ -296,20 +296,29 @@ fn operators(
         terminal.say(format_args!(
             "note: the domain does not have {missing}; what was seen of that is left out."
         ));
+        if taught.missing.iter().any(|what| *what == format!("the type `{ACTOR}`")) {
+            terminal.say(
+                "  = help: where a domain names no hands, --config says so, as in {\"vocabulary\": {\"in-hand\": \"(holding ?object)\"}}",
+            );
+        }
     }
     let mut constrained = Constrained::new();
     let text = if let Some((domain, source, _)) = &known {
         super::extend::merged(source, domain, &learned, terminal)
     } else {
-        report(&learned, terminal);
+        if learned.actions.is_empty() && learned.refused.is_empty() {
+            terminal.say("No operators were learned: nothing changed that a hand did.");
+        } else {
+            report(&learned, terminal);
+        }
         let (text, moves) = whole(arguments, config, &taught, &learned);
         constrained = moves;
         text
     };
     let products =
         Products { taught: &taught, learned: &learned, text: &text, constrained: &constrained };
-    write_beside(arguments, &demonstrations, &tracks, &products, terminal)?;
     deliver(arguments.output.as_deref(), &text, terminal)?;
+    write_beside(arguments, &demonstrations, &tracks, &products, terminal)?;
     Ok(!learned.actions.is_empty())
 }
 
@@ -317,7 +326,8 @@ fn operators(
 fn tell(record: &Record, line: &learner::operators::line::Line, terminal: &mut Terminal) {
     let steps = line.instances.len();
     let done = match steps {
-        0 => "nothing was done".to_owned(),
+        0 if line.mute.is_empty() => "nothing was done".to_owned(),
+        0 => "nothing was done that there are words for".to_owned(),
         1 => "one action".to_owned(),
         count => format!("{count} actions"),
     };

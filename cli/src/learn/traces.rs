@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use lang::diagnostic::Diagnostics;
 use lang::model::{Domain, Object};
 use learner::rule;
 use learner::trace::{self, Reading, Trace, vocabulary};
@@ -45,9 +46,9 @@ pub fn learn(arguments: &Learn, terminal: &mut Terminal) -> Result<Exit, Failure
     };
     if !objects.is_empty() && objects.len() != texts.len() {
         return Err(Some(Complaint::new(format!(
-            "there are {} problems for {} traces; each needs its own",
-            objects.len(),
-            texts.len()
+            "{} traces need as many problems, and --objects names {}",
+            texts.len(),
+            objects.len()
         ))));
     }
     let agents: Vec<&str> = arguments.acting.iter().map(String::as_str).collect();
@@ -90,6 +91,12 @@ fn tell(path: &Path, faults: &[trace::Fault], terminal: &mut Terminal) -> usize 
     faults.len()
 }
 
+/// Says what is wrong with a file, and that it is of no use like that.
+fn unfit(path: &Path, reader: &Reader, found: Diagnostics, terminal: &mut Terminal) -> Complaint {
+    super::extend::refuse(reader, found, terminal);
+    Complaint::new(format!("`{}` has to be mended first", files::name(path)))
+}
+
 /// A domain and the objects of problems of it.
 pub fn read(
     path: &Path,
@@ -101,16 +108,15 @@ pub fn read(
     let (domain, diagnostics) = lang::read_domain(&reader.sources, id);
     let text = reader.sources.get(id).text.clone();
     if diagnostics.has_errors() {
-        super::extend::refuse(&reader, diagnostics, terminal);
-        return Err(None);
+        return Err(Some(unfit(path, &reader, diagnostics, terminal)));
     }
     let mut objects = Vec::new();
     for problem in problems {
         let id = reader.take(problem)?;
+        let path = problem;
         let (problem, diagnostics) = lang::read_problem(&reader.sources, id, &domain);
         if diagnostics.has_errors() {
-            super::extend::refuse(&reader, diagnostics, terminal);
-            return Err(None);
+            return Err(Some(unfit(path, &reader, diagnostics, terminal)));
         }
         objects.push(problem.objects);
     }

@@ -59,7 +59,7 @@ pub enum Fault {
     #[error("`{0}` is there twice")]
     Twice(String),
     /// A number is infinite or none at all.
-    #[error("is not a finite number")]
+    #[error("this is no finite number")]
     NotFinite,
     /// A pose has too few or too many numbers.
     #[error("a pose has 7 numbers (x, y, z, qx, qy, qz, qw), not {0}")]

@@ -138,7 +138,12 @@ pub fn line(
             continue;
         }
         let changed = ordered(deed, &changed, &mut scribe);
-        let Some(arguments) = scribe.arguments(deed, &changed, agents) else { continue };
+        let Some(arguments) = scribe.arguments(deed, &changed, agents) else {
+            // The one who acts is nobody in the words of the domain.
+            *mute.entry(name::name(&record.header, deed)).or_default() += 1;
+            cut = true;
+            continue;
+        };
         let action = action(&mut scribe, record, deed, &arguments, agents);
         let before: Vec<FactId> = put(&mut trace, &before);
         let after: Vec<FactId> = put(&mut trace, &after);
