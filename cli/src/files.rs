@@ -149,7 +149,8 @@ pub fn folder(path: &Path) -> &Path {
     }
 }
 
-/// Writes a file so that it is there as a whole or not at all: to a temporary file beside it, which is then renamed.
+/// Writes a file so that it is there as a whole or not at all: to a temporary file beside it, which is then renamed. What is no file, such as `/dev/stdout`,
+/// is written to as it is.
 pub fn write(path: &Path, text: &[u8]) -> Result<(), Complaint> {
     write_with(path, |out| out.write_all(text))
 }
@@ -160,6 +161,10 @@ pub fn write_with(
     work: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Complaint> {
     let whole = || -> io::Result<()> {
+        // A device or a pipe is written to; only a file is replaced.
+        if fs::metadata(path).is_ok_and(|data| !data.is_file() && !data.is_dir()) {
+            return work(&mut fs::OpenOptions::new().write(true).open(path)?);
+        }
         let mut file = tempfile::Builder::new().prefix(".caveat-").tempfile_in(folder(path))?;
         work(file.as_file_mut())?;
         // Temporary files are private; what is left is a file like any other of this user.

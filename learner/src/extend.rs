@@ -26,12 +26,14 @@ pub struct Extension {
     pub refined: Vec<(String, Vec<String>)>,
     /// What does not fit together, in sentences.
     pub conflicts: Vec<String>,
+    /// For each learned operator, by its learned name, what it is called in the text, and which parameter of that each of its own is.
+    pub names: BTreeMap<String, (String, Vec<usize>)>,
 }
 
 /// How an operator and an action of the domain are alike.
 enum Likeness {
-    /// They change the same. Each parameter of the operator is that parameter of the action; the conjuncts of its precondition in these places did not hold.
-    Same(Vec<usize>),
+    /// They change the same. Each parameter of the operator is that parameter of the action; the conjuncts of its precondition in the second places did not hold.
+    Same(Vec<usize>, Vec<usize>),
     /// They add the same and delete something else.
     Rival,
 }
@@ -47,16 +49,17 @@ pub fn extend(text: &str, domain: &Domain, learned: &Learned) -> Extension {
         let mut rivals = Vec::new();
         for (place, other) in domain.actions.iter().enumerate() {
             match likeness(learned, domain, action, other) {
-                Some(Likeness::Same(unmet)) => {
-                    same = Some((place, unmet));
+                Some(Likeness::Same(places, unmet)) => {
+                    same = Some((place, places, unmet));
                     break;
                 }
                 Some(Likeness::Rival) => rivals.push(place),
                 None => {}
             }
         }
-        if let Some((place, unmet)) = same {
+        if let Some((place, places, unmet)) = same {
             let other = &domain.actions[place];
+            extension.names.insert(own.name.text.clone(), (other.name.text.clone(), places));
             extension.known.push((other.name.text.clone(), action.count));
             if !unmet.is_empty() {
                 let dropped =
@@ -78,6 +81,8 @@ pub fn extend(text: &str, domain: &Domain, learned: &Learned) -> Extension {
             ));
         }
         extension.added.push(name.clone());
+        let places = (0..own.scope.parameters as usize).collect();
+        extension.names.insert(own.name.text.clone(), (name.clone(), places));
         new.push((action, name));
     }
     extension.text = edited(text, learned, &new, cuts);
@@ -167,10 +172,10 @@ fn likeness(
                 NodeKind::Atom(atom) => !held.contains(atom),
                 _ => false,
             });
-        found = Some(unmet.map(|(place, _)| place).collect());
+        found = Some((places.to_vec(), unmet.map(|(place, _)| place).collect()));
         true
     });
-    found.map(Likeness::Same).or(rival.then_some(Likeness::Rival))
+    found.map(|(places, unmet)| Likeness::Same(places, unmet)).or(rival.then_some(Likeness::Rival))
 }
 
 /// Calls `visit` with each order of the first `count` numbers until it says that it is content.

@@ -76,6 +76,45 @@ pub enum Anchor {
 }
 
 impl Routine {
+    /// The same for an action of another name, of which each parameter is the one in that place.
+    #[must_use]
+    pub fn renamed(&self, action: &str, places: &[usize]) -> Self {
+        let place = |index: u32| places.get(index as usize).map_or(index, |&place| place as u32);
+        let order = |list: &[String]| {
+            let mut sorted = list.to_vec();
+            for (from, word) in list.iter().enumerate() {
+                let to = place(from as u32) as usize;
+                if to < sorted.len() {
+                    sorted[to].clone_from(word);
+                }
+            }
+            sorted
+        };
+        let anchor = |anchor| match anchor {
+            Anchor::Middle(index) => Anchor::Middle(place(index)),
+            Anchor::Top(index) => Anchor::Top(place(index)),
+            Anchor::Free(index) => Anchor::Free(place(index)),
+            Anchor::World | Anchor::Hand(_) => anchor,
+        };
+        let doer = |doer: &Doer| match doer {
+            Doer::Argument(index) => Doer::Argument(place(*index)),
+            other => other.clone(),
+        };
+        let point = |point: &WayPoint| WayPoint {
+            carried: point.carried.map(place),
+            anchor: anchor(point.anchor),
+            ..point.clone()
+        };
+        Self {
+            action: action.to_owned(),
+            parameters: order(&self.parameters),
+            shown: order(&self.shown),
+            hands: self.hands.iter().map(doer).collect(),
+            points: self.points.iter().map(point).collect(),
+            ..self.clone()
+        }
+    }
+
     /// Of all routines of an action the one that was shown with the most of these arguments; the first of several.
     pub fn nearest<'r>(
         routines: &'r [Routine],

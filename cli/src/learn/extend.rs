@@ -2,7 +2,7 @@
 
 use lang::diagnostic::{Diagnostics, Severity};
 use lang::model::Domain;
-use learner::extend;
+use learner::extend::{self, Extension};
 use learner::rule::Learned;
 
 use super::times;
@@ -11,7 +11,12 @@ use crate::input::{self, Reader};
 use crate::terminal::Terminal;
 
 /// Merges, and says what came of it.
-pub fn merged(source: &str, known: &Domain, learned: &Learned, terminal: &mut Terminal) -> String {
+pub fn merged(
+    source: &str,
+    known: &Domain,
+    learned: &Learned,
+    terminal: &mut Terminal,
+) -> Extension {
     let extension = extend::extend(source, known, learned);
     for (name, count) in &extension.known {
         terminal.say(format_args!("`{name}` was known, and {}.", times(*count)));
@@ -27,7 +32,7 @@ pub fn merged(source: &str, known: &Domain, learned: &Learned, terminal: &mut Te
         [] => terminal.say("Nothing new was added."),
         names => terminal.say(format_args!("Added: {}.", names.join(", "))),
     }
-    extension.text
+    extension
 }
 
 /// Says what is wrong with a file that was to be used.

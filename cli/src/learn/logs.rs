@@ -303,8 +303,11 @@ fn operators(
         }
     }
     let mut constrained = Constrained::new();
+    let mut names = verify::Names::new();
     let text = if let Some((domain, source, _)) = &known {
-        super::extend::merged(source, domain, &learned, terminal)
+        let extension = super::extend::merged(source, domain, &learned, terminal);
+        names = extension.names;
+        extension.text
     } else {
         if learned.actions.is_empty() && learned.refused.is_empty() {
             terminal.say("No operators were learned: nothing changed that a hand did.");
@@ -315,8 +318,13 @@ fn operators(
         constrained = moves;
         text
     };
-    let products =
-        Products { taught: &taught, learned: &learned, text: &text, constrained: &constrained };
+    let products = Products {
+        taught: &taught,
+        learned: &learned,
+        text: &text,
+        constrained: &constrained,
+        names: &names,
+    };
     deliver(arguments.output.as_deref(), &text, terminal)?;
     write_beside(arguments, &demonstrations, &tracks, &products, terminal)?;
     Ok(!learned.actions.is_empty())
@@ -384,6 +392,8 @@ struct Products<'a> {
     text: &'a str,
     /// The moves that keep shared places free, each with the one that it refines.
     constrained: &'a Constrained,
+    /// What learned actions are called in a domain that was extended.
+    names: &'a verify::Names,
 }
 
 /// Writes the problem, the plan, the trace and the way points, as far as they were asked for, and says whether the demonstrations are plans.
@@ -394,7 +404,7 @@ fn write_beside(
     products: &Products<'_>,
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
-    let Products { taught, learned, text, constrained } = *products;
+    let Products { taught, learned, text, constrained, names } = *products;
     let (record, words) = &demonstrations[0];
     let domain = model(text);
     let begin = problem::beginning(&domain, record, words);
@@ -403,7 +413,8 @@ fn write_beside(
     let title = format!("{}-shown", domain.name.text);
     let written = problem::text(&domain, &title, &begin, &goal);
     let (deeds, line) = &taught.lines[0];
-    let told = verify::told(deeds, line, learned);
+    let mut told = verify::told(deeds, line, learned);
+    told.rename(names);
     if let Some(path) = &arguments.problem {
         files::write(path, written.as_bytes())?;
     }
@@ -449,6 +460,11 @@ fn write_beside(
             .collect();
         let mut routines = routines(&shown, &taught.learned);
         let own = routines.clone();
+        for routine in &mut routines {
+            if let Some((name, places)) = names.get(&routine.action) {
+                *routine = routine.renamed(name, places);
+            }
+        }
         for (name, like, follows) in constrained {
             for same in own.iter().filter(|routine| routine.action == *like) {
                 routines.push(Routine { action: name.clone(), follows: *follows, ..same.clone() });

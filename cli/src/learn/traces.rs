@@ -75,7 +75,7 @@ pub fn learn(arguments: &Learn, terminal: &mut Terminal) -> Result<Exit, Failure
     report(&learned, terminal);
     let result = if arguments.extend.is_some() {
         let known = known.expect("a domain that is extended was read");
-        super::extend::merged(&source, &known, &learned, terminal)
+        super::extend::merged(&source, &known, &learned, terminal).text
     } else {
         text(&learned, &groups(&learned.domain, &traces), |_, _| {})
     };

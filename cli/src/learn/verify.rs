@@ -1,5 +1,6 @@
 //! A domain, a problem and what was demonstrated, all as text, go in; whether the demonstration is a plan in these words comes out.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use lang::execute::Executor;
@@ -11,6 +12,9 @@ use lang::source::Sources;
 use lang::validate::{self, Verdict, joint};
 use learner::operators::deed::Deeds;
 use learner::operators::line::Line;
+
+/// What each learned action is called in a domain, and which parameter of that each of its own is.
+pub type Names = BTreeMap<String, (String, Vec<usize>)>;
 
 /// What was demonstrated, in the words of a domain.
 #[derive(Debug)]
@@ -57,6 +61,19 @@ pub fn told(deeds: &Deeds, line: &Line, learned: &learner::rule::Learned) -> Tol
 }
 
 impl Told {
+    /// The same in the words of a domain that has other names for some of the actions.
+    pub fn rename(&mut self, names: &Names) {
+        for (name, arguments) in self.steps.iter_mut().flatten() {
+            if let Some((other, places)) = names.get(name.as_str()) {
+                let old = arguments.clone();
+                for (word, &place) in old.into_iter().zip(places) {
+                    arguments[place] = word;
+                }
+                name.clone_from(other);
+            }
+        }
+    }
+
     /// As a plan file: one action in a line; of several agents, with the number of the joint step before it.
     pub fn text(&self, agents: bool) -> String {
         let mut text = String::new();
