@@ -253,7 +253,10 @@ fn bottle() -> Vec<Routine> {
     ];
     vec![
         routine("hold", &["?bottle"], holder, hold),
-        routine("unscrew", &["?lid", "?bottle", "?table"], turner, unscrew),
+        Routine {
+            with: vec!["hold".to_owned()],
+            ..routine("unscrew", &["?lid", "?bottle", "?table"], turner, unscrew)
+        },
     ]
 }
 

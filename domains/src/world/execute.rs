@@ -3,6 +3,8 @@
 //! Hands go from way point to way point, seen from where the arguments of the action are now. Nothing checks preconditions:
 //! a plan that leaves out what it needs fails by physics, because a hand closes on nothing, slips off or pushes things over.
 
+mod turns;
+
 use super::actor::Actor;
 use super::chance::Chance;
 use super::facts;
@@ -19,8 +21,6 @@ use nalgebra::{Isometry3, Translation3, Vector3};
 
 /// Two hands nearer than this have run into each other, in metres.
 const CLEARANCE: f64 = 0.06;
-/// Hands whose ways come nearer to each other than this take turns, in metres.
-const ROOM: f64 = 0.15;
 /// How long hands rest before and after they close or open, in seconds.
 const REST: f64 = 0.12;
 /// How long the world is watched after the last step, in seconds.
@@ -135,15 +135,6 @@ struct Part<'plan> {
     holds: Option<ObjectId>,
 }
 
-/// Steps of a joint step that are done at once.
-struct Turn<'plan> {
-    /// They follow somebody.
-    follows: bool,
-    steps: Vec<&'plan PlanStep>,
-    /// Where their hands will be.
-    way: Vec<Vector3<f64>>,
-}
-
 impl Run {
     /// One joint step; false if it cannot be done.
     ///
@@ -156,76 +147,6 @@ impl Run {
             }
         }
         true
-    }
-
-    /// Which steps are done at once, and in which order.
-    fn turns<'s>(&self, steps: &'s [PlanStep], routines: &[Routine]) -> Vec<Vec<&'s PlanStep>> {
-        let found = |step: &PlanStep| Routine::nearest(routines, &step.name, &step.arguments);
-        let mut groups: Vec<(bool, Vec<&PlanStep>)> = Vec::new();
-        for step in steps {
-            let with = |other: &PlanStep| {
-                let names = |one: &PlanStep, two: &PlanStep| {
-                    found(one).is_some_and(|routine| {
-                        routine.with.iter().any(|name| name.eq_ignore_ascii_case(&two.name))
-                    })
-                };
-                names(step, other) || names(other, step)
-            };
-            let follows = found(step).is_some_and(|routine| routine.follows);
-            match groups.iter_mut().find(|(_, group)| group.iter().any(|other| with(other))) {
-                Some((_, group)) => group.push(step),
-                None => groups.push((follows, vec![step])),
-            }
-        }
-        groups.sort_by_key(|(follows, _)| *follows);
-        let mut turns: Vec<Turn<'s>> = Vec::new();
-        for (follows, group) in groups {
-            let way: Vec<Vector3<f64>> =
-                group.iter().flat_map(|step| self.outline(step, found(step))).collect();
-            let clear = |other: &[Vector3<f64>]| {
-                way.iter().all(|one| other.iter().all(|two| (one - two).norm() >= ROOM))
-            };
-            match turns.last_mut() {
-                Some(last) if last.follows == follows && clear(&last.way) => {
-                    last.steps.extend(group);
-                    last.way.extend(way);
-                }
-                _ => turns.push(Turn { follows, steps: group, way }),
-            }
-        }
-        turns.into_iter().map(|turn| turn.steps).collect()
-    }
-
-    /// Roughly where the hands of a step will be: points of their ways, not far from one another.
-    fn outline(&self, step: &PlanStep, routine: Option<&Routine>) -> Vec<Vector3<f64>> {
-        let Some(routine) = routine else { return Vec::new() };
-        let arguments: Vec<Option<ObjectId>> =
-            step.arguments.iter().map(|name| self.stage.named(name)).collect();
-        let mut outline = Vec::new();
-        for (role, doer) in routine.hands.iter().enumerate() {
-            let Some(hand) = self.choose(doer, role as u32, step, routine, &arguments, &[]) else {
-                continue;
-            };
-            let mut at = self.stage.hand(hand).translation.vector;
-            outline.push(at);
-            for point in routine.points.iter().filter(|point| point.hand as usize == role) {
-                let anchor = match point.anchor {
-                    Anchor::World => Isometry3::identity(),
-                    Anchor::Hand(_) => self.stage.hand(hand),
-                    Anchor::Middle(index) | Anchor::Top(index) | Anchor::Free(index) => {
-                        let object = arguments.get(index as usize).copied().flatten();
-                        object.map_or_else(Isometry3::identity, |object| self.stage.pose(object))
-                    }
-                };
-                let next = (anchor * point.offset).translation.vector;
-                let pieces = ((next - at).norm() / 0.03).ceil().max(1.0);
-                outline.extend(
-                    (1..=pieces as u32).map(|piece| at + (next - at) * (f64::from(piece) / pieces)),
-                );
-                at = next;
-            }
-        }
-        outline
     }
 
     /// Steps that are done at once; false if they cannot even begin.
