@@ -29,7 +29,7 @@ const GENERAL: u64 = 200_000;
 const TIES: usize = 100;
 
 /// How often a set is tried that can be no cheaper than an excuse that is known.
-const TRIES_OF_TIES: u32 = 2;
+const TRIES_OF_TIES: u32 = 3;
 
 /// So many sets are tried beyond the bound of a stage, for an excuse to fall back on.
 const TRIES_BEYOND: usize = 40;
