@@ -3,7 +3,7 @@
 //! - [`record`]: what was observed, without the frames;
 //! - [`deed`]: what each hand did, and which changes it brought about;
 //! - [`synergy`]: which deeds only go together;
-//! - [`words`], [`name`], [`line`]: the same as a trace in the words of a domain;
+//! - [`words`], [`name`], [`line`](mod@line): the same as a trace in the words of a domain;
 //! - [`letter`]: algorithm 4 to the letter, for comparison;
 //! - [`track`], [`routine`]: how each was done, as way points.
 
