@@ -1,0 +1,110 @@
+//! Sets of variables go in; how often their states go together comes out, whoever does the counting.
+//!
+//! Counting is all that learning asks of data (equation 2.5): a table in memory counts, and so does whatever reads trials that no
+//! memory holds.
+
+use thiserror::Error;
+
+use crate::table::Table;
+use crate::variable::{Variable, VariableId};
+
+/// How many trials fall into each combination of the states of some variables. The last variable runs fastest: for `[a, b]` the cell
+/// of states `i`, `j` is `i * arity(b) + j`.
+pub type Counts = Vec<u64>;
+
+/// As many cells as one table of counts may have.
+pub const MOST_CELLS: usize = 1 << 26;
+
+/// Why counting failed.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum CountError {
+    /// More combinations of states than can be counted.
+    #[error(
+        "{variables} have {cells} combinations of states together, more than the {MOST_CELLS} that can be counted"
+    )]
+    TooManyCells {
+        /// Their names.
+        variables: String,
+        /// How many combinations there are.
+        cells: u128,
+    },
+    /// The trials could not be read.
+    #[error("{0}")]
+    Source(String),
+}
+
+/// Whoever counts trials.
+pub trait Counter: Sync {
+    /// The variables that there are.
+    fn variables(&self) -> &[Variable];
+
+    /// How many trials there are.
+    fn rows(&self) -> u64;
+
+    /// Counts the states of each of these sets of variables. Many are asked at once, since a source that reads files reads them once
+    /// for all.
+    fn count(&self, sets: &[Vec<VariableId>]) -> Result<Vec<Counts>, CountError>;
+}
+
+/// How many cells the counts of some variables have.
+pub fn cells(variables: &[Variable], set: &[VariableId]) -> Result<usize, CountError> {
+    let product = set
+        .iter()
+        .map(|id| variables[id.index()].arity() as u128)
+        .fold(1_u128, u128::saturating_mul);
+    if product <= MOST_CELLS as u128 {
+        return Ok(product as usize);
+    }
+    let names: Vec<&str> = set.iter().map(|id| variables[id.index()].name.as_str()).collect();
+    Err(CountError::TooManyCells { variables: names.join(", "), cells: product })
+}
+
+impl Counter for Table {
+    fn variables(&self) -> &[Variable] {
+        self.variables()
+    }
+
+    fn rows(&self) -> u64 {
+        self.rows()
+    }
+
+    fn count(&self, sets: &[Vec<VariableId>]) -> Result<Vec<Counts>, CountError> {
+        sets.iter().map(|set| count(self, set)).collect()
+    }
+}
+
+/// Counts one set of variables of a table.
+fn count(table: &Table, set: &[VariableId]) -> Result<Counts, CountError> {
+    let mut counts = vec![0; cells(table.variables(), set)?];
+    let columns: Vec<(&[u8], usize)> =
+        set.iter().map(|&id| (table.column(id), table.variable(id).arity())).collect();
+    for row in 0..table.len() {
+        let cell =
+            columns.iter().fold(0, |cell, (column, arity)| cell * arity + usize::from(column[row]));
+        counts[cell] += table.weights().map_or(1, |weights| u64::from(weights[row]));
+    }
+    Ok(counts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_variable_runs_fastest() {
+        let variables =
+            vec![Variable::of_words("a", ["x", "y"]), Variable::of_words("b", ["r", "s", "t"])];
+        let table = Table::new(variables, vec![vec![0, 1, 1, 1], vec![2, 0, 0, 2]]).unwrap();
+        let sets = [vec![VariableId(0), VariableId(1)], vec![VariableId(1)], vec![]];
+        let counts = table.count(&sets).unwrap();
+        assert_eq!(counts, [vec![0, 0, 1, 2, 0, 1], vec![2, 0, 2], vec![4]]);
+    }
+
+    #[test]
+    fn a_weighted_row_stands_for_several_trials() {
+        let variables = vec![Variable::of_words("a", ["x", "y"])];
+        let table = Table::weighted(variables, vec![vec![0, 1]], vec![3, 4]).unwrap();
+        assert_eq!(table.count(&[vec![VariableId(0)]]).unwrap(), [vec![3, 4]]);
+        assert_eq!(table.rows(), 7);
+    }
+}
