@@ -139,6 +139,7 @@ impl Table {
     }
 
     /// The rows with these numbers, in this order.
+    #[must_use]
     pub fn select(&self, rows: &[u32]) -> Self {
         let pick = |column: &Vec<State>| rows.iter().map(|&row| column[row as usize]).collect();
         let columns = self.columns.iter().map(pick).collect();
@@ -153,6 +154,7 @@ impl Table {
     }
 
     /// The columns of these variables, in this order.
+    #[must_use]
     pub fn project(&self, ids: &[VariableId]) -> Self {
         Self {
             variables: ids.iter().map(|id| self.variable(*id).clone()).collect(),

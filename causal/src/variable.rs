@@ -113,7 +113,7 @@ impl Variable {
         match &self.states {
             States::Categories(words) => words
                 .iter()
-                .position(|word| word.parse::<f64>().is_ok_and(|one| one == value))
+                .position(|word| word.parse::<f64>().is_ok_and(|one| one.total_cmp(&value).is_eq()))
                 .map(|at| at as State),
             States::Intervals(edges) => interval(edges, value),
             States::Series(_) => None,
