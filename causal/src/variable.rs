@@ -5,6 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::derive::Derivation;
+
 /// The number of a variable in its table, model or network.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(transparent)]
@@ -32,8 +34,24 @@ pub struct Variable {
     /// The unit of its values, for quantities that have one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
+    /// What it is in a trial, where that is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub role: Option<Role>,
+    /// How its value comes from the columns of a trial; none where it is the column of its own name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<Derivation>,
     /// The states that it can be in.
     pub states: States,
+}
+
+/// What a variable is in a trial (thesis §2.1.1).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Role {
+    /// It is set before the trial, by chance or by choice: nothing in the trial causes it.
+    Treatment,
+    /// It is measured during the trial or at its end.
+    Outcome,
 }
 
 /// The states that a variable can be in.
@@ -50,18 +68,23 @@ pub enum States {
 }
 
 impl Variable {
+    /// A variable with these states, of which no more is known.
+    pub fn new(name: impl Into<String>, states: States) -> Self {
+        Self { name: name.into(), unit: None, role: None, from: None, states }
+    }
+
     /// A variable whose states are words.
     pub fn of_words(
         name: impl Into<String>,
         words: impl IntoIterator<Item = impl Into<String>>,
     ) -> Self {
         let words = words.into_iter().map(Into::into).collect();
-        Self { name: name.into(), unit: None, states: States::Categories(words) }
+        Self::new(name, States::Categories(words))
     }
 
     /// A variable whose states are the intervals between rising `edges`.
     pub fn of_intervals(name: impl Into<String>, edges: Vec<f64>) -> Self {
-        Self { name: name.into(), unit: None, states: States::Intervals(edges) }
+        Self::new(name, States::Intervals(edges))
     }
 
     /// How many states there are.
@@ -187,7 +210,7 @@ mod tests {
     #[test]
     fn a_series_belongs_to_the_nearest_centroid() {
         let states = States::Series(vec![vec![0.0, 0.0, 0.0], vec![0.0, 1.0, 2.0]]);
-        let course = Variable { name: "robot_pos_change".into(), unit: Some("m".into()), states };
+        let course = Variable::new("robot_pos_change", states);
         assert_eq!(course.state_of_series(&[0.0, 0.9, 1.5]), Some(1));
         assert_eq!(course.state_of_series(&[0.0, 0.1, -0.5]), Some(0));
         assert_eq!(course.state_of_series(&[0.0, 0.1]), None, "another length");
