@@ -2,14 +2,24 @@
 //!
 //! The rooms in the order in which data passes them:
 //!
-//! - [`derive`]: a variable that is made of the columns of a trial;
+//! - [`source`]: files of trials, in blocks;
+//! - [`derive`](mod@derive): a variable that is made of the columns of a trial;
 //! - [`variable`]: what is set or measured in a trial, and the states that it is in;
+//! - [`recipe`]: what a person declares of variables;
+//! - [`survey`](mod@survey): what kind of values they have;
+//! - [`place`]: values as states;
 //! - [`table`]: trials as states, column by column;
 //! - [`count`](mod@count): how often states go together, whoever counts them;
+//! - [`stream`]: tables and counts out of files of any length;
 //! - [`graph`]: which variables cause which.
 
+pub mod source;
 pub mod derive;
 pub mod variable;
+pub mod recipe;
+pub mod survey;
+pub mod place;
 pub mod table;
 pub mod count;
+pub mod stream;
 pub mod graph;
