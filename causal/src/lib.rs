@@ -7,6 +7,8 @@
 //! - [`variable`]: what is set or measured in a trial, and the states that it is in;
 //! - [`recipe`]: what a person declares of variables;
 //! - [`survey`](mod@survey): what kind of values they have;
+//! - [`sample`]: some of the values;
+//! - [`discretize`](mod@discretize): the states that values become;
 //! - [`place`]: values as states;
 //! - [`table`]: trials as states, column by column;
 //! - [`count`](mod@count): how often states go together, whoever counts them;
@@ -18,6 +20,8 @@ pub mod derive;
 pub mod variable;
 pub mod recipe;
 pub mod survey;
+pub mod sample;
+pub mod discretize;
 pub mod place;
 pub mod table;
 pub mod count;
