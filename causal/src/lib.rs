@@ -13,7 +13,10 @@
 //! - [`table`]: trials as states, column by column;
 //! - [`count`](mod@count): how often states go together, whoever counts them;
 //! - [`stream`]: tables and counts out of files of any length;
-//! - [`graph`]: which variables cause which.
+//! - [`graph`]: which variables cause which;
+//! - [`set`]: variables as bits;
+//! - [`pattern`]: graphs that fit data equally well;
+//! - [`knowledge`]: what is known before any data.
 
 pub mod source;
 pub mod derive;
@@ -27,3 +30,6 @@ pub mod table;
 pub mod count;
 pub mod stream;
 pub mod graph;
+pub mod set;
+pub mod pattern;
+pub mod knowledge;

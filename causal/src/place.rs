@@ -89,6 +89,8 @@ impl<'a> Placer<'a> {
         let rows = block.rows.len();
         let mut columns = Vec::with_capacity(self.variables.len());
         let mut left_out: Vec<bool> = Vec::new();
+        // Of several rows that do not fit, the first is told.
+        let mut refused: Option<(usize, Fault)> = None;
         for (variable, needed) in self.variables.iter().zip(self.fetch.variables()) {
             let mut column = Vec::with_capacity(rows);
             let mut states = StateFinder::new(variable, needed, block);
@@ -96,7 +98,13 @@ impl<'a> Placer<'a> {
                 match states.find(row) {
                     Ok(state) => column.push(state),
                     Err(misfit) => {
-                        self.judge(variable, &misfit, shard, block.rows[row])?;
+                        if refused.as_ref().is_some_and(|&(first, _)| first <= row) {
+                            break;
+                        }
+                        if let Err(fault) = self.judge(variable, &misfit, shard, block.rows[row]) {
+                            refused = Some((row, fault));
+                            break;
+                        }
                         if left_out.is_empty() {
                             left_out = vec![false; rows];
                         }
@@ -106,6 +114,9 @@ impl<'a> Placer<'a> {
                 }
             }
             columns.push(column);
+        }
+        if let Some((_, fault)) = refused {
+            return Err(fault);
         }
         if left_out.is_empty() {
             return Ok(Placed { columns, kept: None, dropped: 0 });
