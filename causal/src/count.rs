@@ -3,6 +3,7 @@
 //! Counting is all that learning asks of data (equation 2.5): a table in memory counts, and so does whatever reads trials that no
 //! memory holds.
 
+use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::table::Table;
@@ -69,7 +70,11 @@ impl Counter for Table {
     }
 
     fn count(&self, sets: &[Vec<VariableId>]) -> Result<Vec<Counts>, CountError> {
-        sets.iter().map(|set| count(self, set)).collect()
+        // A few are counted faster than threads are woken.
+        if sets.len() < 16 || rayon::current_num_threads() == 1 {
+            return sets.iter().map(|set| count(self, set)).collect();
+        }
+        sets.par_iter().map(|set| count(self, set)).collect()
     }
 }
 
@@ -82,6 +87,12 @@ fn count(table: &Table, set: &[VariableId]) -> Result<Counts, CountError> {
     Ok(counts)
 }
 
+/// As many cells as are counted side by side in the nearest cache.
+const NEAR: usize = 1 << 10;
+
+/// As many rows as are counted at a time, so that what is known of them stays in the nearest cache.
+const FEW: usize = 1 << 10;
+
 /// Adds `rows` rows of columns, each with the arity of its variable, to counts.
 pub(crate) fn tally(
     columns: &[(&[State], usize)],
@@ -89,8 +100,9 @@ pub(crate) fn tally(
     weights: Option<&[u32]>,
     counts: &mut [u64],
 ) {
-    // The numbers of the cells are made for a few rows at a time, column by column: simple loops over what the nearest cache holds.
-    const FEW: usize = 1 << 10;
+    if weights.is_none() && counts.len() <= NEAR {
+        return tally_near(columns, rows, counts);
+    }
     let mut cells = [0_u32; FEW];
     for start in (0..rows).step_by(FEW) {
         let cells = &mut cells[..FEW.min(rows - start)];
@@ -107,6 +119,40 @@ pub(crate) fn tally(
                     counts[cell as usize] += u64::from(weight);
                 }
             }
+        }
+    }
+}
+
+/// The same for few cells: four counts of each, so that a row need not wait for the one before it, which often has the same cell.
+/// Sixteen bits are enough for the number of a cell, and twice as many of them are made at once.
+fn tally_near(columns: &[(&[State], usize)], rows: usize, counts: &mut [u64]) {
+    let size = counts.len();
+    let mut tables = [[0_u32; NEAR]; 4];
+    let mut cells = [0_u16; FEW];
+    for start in (0..rows).step_by(FEW) {
+        let cells = &mut cells[..FEW.min(rows - start)];
+        cells.fill(0);
+        for &(column, arity) in columns {
+            let arity = arity as u16;
+            for (cell, &state) in cells.iter_mut().zip(&column[start..]) {
+                *cell = cell.wrapping_mul(arity).wrapping_add(u16::from(state));
+            }
+        }
+        let mut fours = cells.chunks_exact(4);
+        let [first, second, third, fourth] = &mut tables;
+        for four in &mut fours {
+            first[usize::from(four[0]) % NEAR] += 1;
+            second[usize::from(four[1]) % NEAR] += 1;
+            third[usize::from(four[2]) % NEAR] += 1;
+            fourth[usize::from(four[3]) % NEAR] += 1;
+        }
+        for &cell in fours.remainder() {
+            first[usize::from(cell) % NEAR] += 1;
+        }
+    }
+    for table in &tables {
+        for (count, &more) in counts.iter_mut().zip(&table[..size]) {
+            *count += u64::from(more);
         }
     }
 }

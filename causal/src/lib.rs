@@ -16,7 +16,10 @@
 //! - [`graph`]: which variables cause which;
 //! - [`set`]: variables as bits;
 //! - [`pattern`]: graphs that fit data equally well;
-//! - [`knowledge`]: what is known before any data.
+//! - [`knowledge`]: what is known before any data;
+//! - [`score`]: how well a graph fits;
+//! - [`independence`]: what does not depend on what;
+//! - [`discover`](mod@discover): the graph that fits best.
 
 pub mod source;
 pub mod derive;
@@ -33,3 +36,6 @@ pub mod graph;
 pub mod set;
 pub mod pattern;
 pub mod knowledge;
+pub mod score;
+pub mod independence;
+pub mod discover;

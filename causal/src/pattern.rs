@@ -10,6 +10,7 @@ use crate::variable::VariableId;
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Pattern {
     parents: Vec<Set>,
+    children: Vec<Set>,
     neighbours: Vec<Set>,
 }
 
@@ -29,7 +30,8 @@ pub enum Join {
 impl Pattern {
     /// A pattern of this many variables without an arc.
     pub fn empty(variables: usize) -> Self {
-        Self { parents: vec![Set::EMPTY; variables], neighbours: vec![Set::EMPTY; variables] }
+        let none = vec![Set::EMPTY; variables];
+        Self { parents: none.clone(), children: none.clone(), neighbours: none }
     }
 
     /// The graph itself, every arc directed.
@@ -88,7 +90,7 @@ impl Pattern {
 
     /// What a variable points to.
     pub fn children(&self, id: VariableId) -> Set {
-        self.ids().filter(|other| self.parents(*other).contains(id)).collect()
+        self.children[id.index()]
     }
 
     /// Everything that is joined to a variable.
@@ -98,9 +100,7 @@ impl Pattern {
 
     /// Whether two variables are joined.
     pub fn joined(&self, one: VariableId, other: VariableId) -> bool {
-        self.parents(one).contains(other)
-            || self.parents(other).contains(one)
-            || self.neighbours(one).contains(other)
+        self.adjacent(one).contains(other)
     }
 
     /// How two variables are joined.
@@ -138,6 +138,7 @@ impl Pattern {
     pub fn direct(&mut self, parent: VariableId, child: VariableId) {
         self.part(parent, child);
         self.parents[child.index()] = self.parents(child).with(parent);
+        self.children[parent.index()] = self.children(parent).with(child);
     }
 
     /// Joins two variables without a direction, whatever was between them.
@@ -151,6 +152,7 @@ impl Pattern {
     pub fn part(&mut self, one: VariableId, other: VariableId) {
         for (a, b) in [(one, other), (other, one)] {
             self.parents[a.index()] = self.parents(a).without(b);
+            self.children[a.index()] = self.children(a).without(b);
             self.neighbours[a.index()] = self.neighbours(a).without(b);
         }
     }
