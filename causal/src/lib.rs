@@ -19,7 +19,12 @@
 //! - [`knowledge`]: what is known before any data;
 //! - [`score`]: how well a graph fits;
 //! - [`independence`]: what does not depend on what;
-//! - [`discover`](mod@discover): the graph that fits best.
+//! - [`discover`](mod@discover): the graph that fits best;
+//! - [`network`]: a graph with probabilities;
+//! - [`estimate`](mod@estimate): the probabilities that fit best;
+//! - [`infer`]: what follows from what is seen or set;
+//! - [`evaluate`]: how well outcomes are predicted;
+//! - [`file`]: networks as text and as pictures.
 
 pub mod source;
 pub mod derive;
@@ -39,3 +44,8 @@ pub mod knowledge;
 pub mod score;
 pub mod independence;
 pub mod discover;
+pub mod network;
+pub mod estimate;
+pub mod infer;
+pub mod evaluate;
+pub mod file;
