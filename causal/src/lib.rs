@@ -21,6 +21,7 @@
 //! - [`independence`]: what does not depend on what;
 //! - [`discover`](mod@discover): the graph that fits best;
 //! - [`network`]: a graph with probabilities;
+//! - [`bootstrap`]: how sure its arcs are;
 //! - [`estimate`](mod@estimate): the probabilities that fit best;
 //! - [`infer`]: what follows from what is seen or set;
 //! - [`evaluate`]: how well outcomes are predicted;
@@ -45,6 +46,7 @@ pub mod score;
 pub mod independence;
 pub mod discover;
 pub mod network;
+pub mod bootstrap;
 pub mod estimate;
 pub mod infer;
 pub mod evaluate;

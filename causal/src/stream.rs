@@ -52,8 +52,8 @@ pub struct Stream<'a> {
     source: &'a dyn Source,
     variables: &'a [Variable],
     placer: Placer<'a>,
-    rows: u64,
-    dropped: u64,
+    rows: AtomicU64,
+    dropped: AtomicU64,
     /// How often the source was read.
     readings: AtomicU64,
 }
@@ -65,26 +65,25 @@ impl<'a> Stream<'a> {
         variables: &'a [Variable],
         policy: Policy,
     ) -> Result<Self, Fault> {
-        let placer = Placer::new(source, variables, policy)?;
-        let mut this =
-            Self { source, variables, placer, rows: 0, dropped: 0, readings: AtomicU64::new(0) };
-        let totals = this.fold(
-            || (0, 0),
-            |total: &mut (u64, u64), placed| {
-                total.0 += placed.columns.first().map_or(0, Vec::len) as u64;
-                total.1 += placed.dropped;
-            },
-        )?;
-        for (rows, dropped) in totals {
-            this.rows += rows;
-            this.dropped += dropped;
-        }
+        let this = Self::unread(source, variables, policy)?;
+        this.fold(|| (), |(), _| ())?;
         Ok(this)
+    }
+
+    /// The same without a reading: how many rows there are is known after the first question.
+    pub fn unread(
+        source: &'a dyn Source,
+        variables: &'a [Variable],
+        policy: Policy,
+    ) -> Result<Self, Fault> {
+        let placer = Placer::new(source, variables, policy)?;
+        let (rows, dropped, readings) = (AtomicU64::new(0), AtomicU64::new(0), AtomicU64::new(0));
+        Ok(Self { source, variables, placer, rows, dropped, readings })
     }
 
     /// How many trials are left out.
     pub fn dropped(&self) -> u64 {
-        self.dropped
+        self.dropped.load(Ordering::Relaxed)
     }
 
     /// How often the source was read.
@@ -101,7 +100,8 @@ impl<'a> Stream<'a> {
         self.readings.fetch_add(1, Ordering::Relaxed);
         let next = AtomicU64::new(0);
         let workers = rayon::current_num_threads().min(self.source.shards()).max(1);
-        (0..workers)
+        let (rows, dropped) = (AtomicU64::new(0), AtomicU64::new(0));
+        let results = (0..workers)
             .into_par_iter()
             .map(|_| {
                 let mut result = start();
@@ -111,12 +111,18 @@ impl<'a> Stream<'a> {
                         return Ok(result);
                     }
                     self.source.read(shard, self.placer.columns(), &mut |block| {
-                        take(&mut result, self.placer.place(shard, block)?);
+                        let placed = self.placer.place(shard, block)?;
+                        rows.fetch_add(block.rows.len() as u64 - placed.dropped, Ordering::Relaxed);
+                        dropped.fetch_add(placed.dropped, Ordering::Relaxed);
+                        take(&mut result, placed);
                         Ok(())
                     })?;
                 }
             })
-            .collect()
+            .collect::<Result<Vec<T>, Fault>>()?;
+        self.rows.store(rows.into_inner(), Ordering::Relaxed);
+        self.dropped.store(dropped.into_inner(), Ordering::Relaxed);
+        Ok(results)
     }
 }
 
@@ -126,7 +132,7 @@ impl Counter for Stream<'_> {
     }
 
     fn rows(&self) -> u64 {
-        self.rows
+        self.rows.load(Ordering::Relaxed)
     }
 
     fn count(&self, sets: &[Vec<VariableId>]) -> Result<Vec<Counts>, CountError> {

@@ -1,5 +1,6 @@
 //! The command line as data.
 
+pub mod causal;
 pub mod excuse;
 pub mod learn;
 pub mod simulate;
@@ -67,6 +68,8 @@ pub enum Verb {
     Learn(Box<learn::Learn>),
     /// Let somebody demonstrate in a physical world, or carry a plan out there.
     Simulate(simulate::Simulate),
+    /// Learn from trials what causes success and failure, and ask what was learned.
+    Causal(Box<causal::Causal>),
     /// Measure this planner and a peer on the same tasks.
     Bench(Bench),
     /// Explain a diagnostic code.

@@ -34,6 +34,7 @@ pub mod ground;
 pub mod excuse;
 pub mod learn;
 pub mod simulate;
+pub mod causal;
 pub mod bench;
 pub mod explain;
 pub mod lsp;
@@ -93,6 +94,7 @@ fn dispatch(arguments: &[OsString], terminal: &mut Terminal) -> Exit {
         Verb::Excuse(arguments) => excuse::run(&arguments, terminal),
         Verb::Learn(arguments) => learn::run(&arguments, terminal),
         Verb::Simulate(arguments) => simulate::run(&arguments, terminal),
+        Verb::Causal(arguments) => causal::run(&arguments, terminal),
         Verb::Explain(arguments) => explain::run(&arguments, terminal),
         Verb::Bench(arguments) => bench::run(&arguments, terminal),
         Verb::Lsp(arguments) => lsp::run(&arguments, terminal),

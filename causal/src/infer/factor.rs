@@ -19,7 +19,8 @@ impl Factor {
         Self { scope: Vec::new(), values: vec![value] }
     }
 
-    /// The table of a variable of a network, each row normalised, where the evidence holds: what is seen is no variable of it any more.
+    /// The table of a variable of a network, with the numbers as they are, where the evidence holds: what is seen is no variable of it
+    /// any more.
     pub fn of_table(network: &Network, id: VariableId, evidence: &Evidence) -> Self {
         let seen = |id: VariableId| {
             evidence.iter().find(|(other, _)| *other == id).map(|&(_, state)| state)
@@ -46,13 +47,8 @@ impl Factor {
         }
         free.sort_unstable();
         let table = &network.table(id).probabilities;
-        let value = |cell: usize| {
-            let row = cell / arity * arity;
-            let sum: f64 = table[row..row + arity].iter().sum();
-            if sum > 0.0 { table[cell] / sum } else { 0.0 }
-        };
         let mut values = Vec::with_capacity(free.iter().map(|&(_, arity, _)| arity).product());
-        walk(&free, start, &mut |cell| values.push(value(cell)));
+        walk(&free, start, &mut |cell| values.push(table[cell]));
         Self { scope: free.into_iter().map(|(id, arity, _)| (id, arity)).collect(), values }
     }
 

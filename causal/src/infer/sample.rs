@@ -79,10 +79,7 @@ impl<'a> Sampler<'a> {
 
     /// Fills columns, one for each variable, with the trials of a block.
     pub fn fill(&self, seed: u64, block: u64, columns: &mut [Vec<State>]) {
-        // Seeds that differ in one bit would give like numbers at first: the block is mixed in by a generator of its own.
-        let mut seeds = fastrand::Rng::with_seed(seed);
-        let mixed = seeds.u64(..) ^ fastrand::Rng::with_seed(block).u64(..);
-        let mut random = fastrand::Rng::with_seed(mixed);
+        let mut random = fastrand::Rng::with_seed(mixed(seed, block));
         for &id in &self.order {
             let mut column = std::mem::take(&mut columns[id.index()]);
             let arity = self.network.variable(id).arity();
@@ -98,6 +95,16 @@ impl<'a> Sampler<'a> {
             columns[id.index()] = column;
         }
     }
+}
+
+/// The seed of a block. Seeds that differ in one bit would give like numbers at first: both are mixed by a generator of their own.
+fn mixed(seed: u64, block: u64) -> u64 {
+    fastrand::Rng::with_seed(seed).u64(..) ^ fastrand::Rng::with_seed(block).u64(..)
+}
+
+/// Chance for what comes after trials were drawn under a seed, such as values within their states.
+pub fn generator(seed: u64) -> fastrand::Rng {
+    fastrand::Rng::with_seed(mixed(seed, u64::MAX))
 }
 
 /// The logarithm of the probability of the trials of a table whose columns are the variables of the network, in its order. Minus

@@ -1,0 +1,28 @@
+//! `caveat causal`: trials and models go in; models, answers and how good they are come out.
+
+mod trials;
+mod model;
+mod discover;
+mod fit;
+mod show;
+mod query;
+mod evaluate;
+
+use crate::args::causal::{Causal, What};
+use crate::exit::Exit;
+use crate::terminal::Terminal;
+
+/// Runs the verb.
+pub fn run(arguments: &Causal, terminal: &mut Terminal) -> Exit {
+    let done = match &arguments.what {
+        What::Discover(arguments) => discover::run(arguments, terminal),
+        What::Fit(arguments) => fit::run(arguments, terminal),
+        What::Show(arguments) => show::run(arguments, terminal),
+        What::Query(arguments) => query::run(arguments, terminal),
+        What::Evaluate(arguments) => evaluate::run(arguments, terminal),
+    };
+    done.unwrap_or_else(|complaint| {
+        terminal.say(complaint);
+        Exit::Failed
+    })
+}

@@ -1,0 +1,81 @@
+//! `caveat causal fit`: a graph and trials go in; the model with the probabilities of these trials comes out.
+
+use ::causal::count::Counter;
+use ::causal::estimate::{Estimator, estimate};
+use ::causal::graph::Dag;
+use ::causal::network::Network;
+use ::causal::stream::{self, Stream};
+use ::causal::variable::Variable;
+
+use super::{discover, model, trials};
+use crate::args::causal::Fit;
+use crate::exit::Exit;
+use crate::files::{self, Complaint};
+use crate::terminal::Terminal;
+
+/// Runs the verb.
+pub fn run(arguments: &Fit, terminal: &mut Terminal) -> Result<Exit, Complaint> {
+    let source = trials::open(&arguments.trials)?;
+    let given = arguments.model.as_deref().map(model::read).transpose()?;
+    let prior = arguments.prior.as_deref().map(model::read).transpose()?;
+    let (variables, graph): (Vec<Variable>, Dag) = if let Some(network) = &given {
+        (network.variables().to_vec(), network.graph().clone())
+    } else {
+        let declared = trials::declared(&arguments.trials, None, &*source)?;
+        let variables = trials::states(&arguments.trials, &declared, &*source, terminal)?;
+        let graph = model::graph(&variables, &arguments.arcs)?;
+        (variables, graph)
+    };
+    let estimator = match (&prior, arguments.weight) {
+        (Some(prior), Some(weight)) => Estimator::Weighted { weight, prior },
+        _ => model::estimator(&arguments.estimate)?,
+    };
+    let policy = trials::policy(&arguments.trials);
+    let fit = |counter: &dyn Counter| {
+        estimate(counter, &graph, estimator).map_err(|error| Complaint::new(error.to_string()))
+    };
+    let (network, table): (Network, _) = if arguments.stream {
+        let stream = Stream::unread(&*source, &variables, policy)
+            .map_err(|fault| trials::complain(&fault))?;
+        let network = fit(&stream)?;
+        trials::tell_dropped(stream.dropped(), terminal);
+        (network, None)
+    } else {
+        let (table, dropped) = stream::table(&*source, &variables, policy)
+            .map_err(|fault| trials::complain(&fault))?;
+        trials::tell_dropped(dropped, terminal);
+        (fit(&table)?, Some(table))
+    };
+    let goal = trials::goal(&arguments.trials)?
+        .or_else(|| given.as_ref().and_then(|given| given.goal.clone()));
+    let mut network = match goal {
+        Some(goal) => discover::with_goal(network, goal, table.as_ref())?,
+        None => network,
+    };
+    network.about.files = arguments.trials.files.iter().map(|path| files::name(path)).collect();
+    if let Some(given) = &given {
+        let (rows, estimated) = (network.about.trials, network.about.estimate.clone());
+        let files = std::mem::take(&mut network.about.files);
+        network.about = ::causal::network::About {
+            files,
+            trials: rows,
+            estimate: estimated,
+            ..given.about.clone()
+        };
+    } else {
+        network.about.method = Some("hand".to_owned());
+    }
+    model::write(&network, &arguments.output)?;
+    let unseen: usize = network
+        .ids()
+        .filter_map(|id| network.table(id).trials.as_ref())
+        .map(|trials| trials.iter().filter(|&&count| count == 0).count())
+        .sum();
+    let rows: usize = network.ids().filter_map(|id| network.rows(id)).sum();
+    terminal.line(format_args!(
+        "{} trials, {} probabilities in {rows} rows, of which {unseen} no trial shows",
+        network.about.trials.unwrap_or(0),
+        network.parameters()
+    ));
+    Ok(Exit::Done)
+}
