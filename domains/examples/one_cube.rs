@@ -3,7 +3,7 @@
 //! `cargo run --release -p caveat-domains --example one_cube -- 3000 1 > domains/one-cube/trials.csv`
 //!
 //! Both cubes have edges of 5 cm. The upper one is let go at an offset (uniform within 3 cm in x and y) and at a height above the lower
-//! one (0.5 to 10 cm), a little turned and tilted; restitution 0.2, friction 0.5, steps of 1/240 s. Colours do nothing.
+//! one (0.5 to 10 cm), a little turned and tilted; restitution 0.4, friction 0.5, steps of 1/240 s. Colours do nothing.
 
 use rapier3d::prelude::{
     ColliderBuilder, PhysicsWorld, Pose, RigidBodyBuilder, RigidBodyHandle, Rotation, Vector,
@@ -15,7 +15,7 @@ const COLOURS: [&str; 4] = ["blue", "green", "orange", "red"];
 fn cube(world: &mut PhysicsWorld, pose: Pose) -> RigidBodyHandle {
     let body = world.insert_body(RigidBodyBuilder::dynamic().pose(pose).can_sleep(false));
     let half = EDGE / 2.0;
-    let shape = ColliderBuilder::cuboid(half, half, half).mass(0.1).friction(0.5).restitution(0.2);
+    let shape = ColliderBuilder::cuboid(half, half, half).mass(0.1).friction(0.5).restitution(0.4);
     world.insert_collider(shape, Some(body));
     body
 }
@@ -29,7 +29,7 @@ fn stays(x: f32, y: f32, height: f32, turn: f32, tilt: (f32, f32)) -> bool {
     world.integration_parameters.length_unit = EDGE;
     let ground = world.insert_body(RigidBodyBuilder::fixed());
     let table = ColliderBuilder::cuboid(1.0, 1.0, 0.05).translation(Vector::new(0.0, 0.0, -0.05));
-    world.insert_collider(table.friction(0.5).restitution(0.2), Some(ground));
+    world.insert_collider(table.friction(0.5).restitution(0.4), Some(ground));
     let lower = cube(&mut world, Pose::from_translation(Vector::new(0.0, 0.0, EDGE / 2.0)));
     let place = Vector::new(x, y, EDGE * 1.5 + height);
     let turned = Rotation::from_rotation_z(turn)
@@ -62,7 +62,7 @@ fn main() {
             |low: f64, high: f64| ((low + (high - low) * random.f64()) * 1e4).round() / 1e4;
         let (x, y, height) = (within(-3.0, 3.0), within(-3.0, 3.0), within(0.5, 10.0));
         let mut normal = || (0..12).map(|_| random.f32()).sum::<f32>() - 6.0;
-        let (turn, tilt) = (0.05 * normal(), (0.02 * normal(), 0.02 * normal()));
+        let (turn, tilt) = (0.05 * normal(), (0.05 * normal(), 0.05 * normal()));
         let (down, up) = (COLOURS[random.usize(..4)], COLOURS[random.usize(..4)]);
         let metres = |centimetres: f64| (centimetres / 100.0) as f32;
         let stayed = stays(metres(x), metres(y), metres(height), turn, tilt);

@@ -1,6 +1,7 @@
 //! A random forest beside the network, as the thesis has one (table 2.4): the same features and the same folds. The forest itself is
 //! smartcore's.
 
+use rayon::prelude::*;
 use smartcore::ensemble::random_forest_classifier::{
     RandomForestClassifier, RandomForestClassifierParameters,
 };
@@ -15,13 +16,31 @@ use crate::variable::{States, VariableId};
 pub struct Forest {
     /// The predictions; a forest has no probabilities.
     pub predictions: Vec<Prediction>,
-    /// How it was tuned, for each fold: the number of trees and the depth.
-    pub tuned: Vec<(u16, Option<u16>)>,
+    /// How it was tuned, fold by fold.
+    pub tuned: Vec<Tuning>,
+}
+
+/// How a forest is grown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Tuning {
+    /// How many trees.
+    pub trees: u16,
+    /// How deep they may be.
+    pub depth: Option<u16>,
+    /// Whether each split may look at all features, and not only at the square root of their number.
+    pub all_features: bool,
 }
 
 /// What is tried in each fold, on a fourth of what may be seen.
 const TREES: [u16; 2] = [50, 150];
 const DEPTHS: [Option<u16>; 3] = [Some(4), Some(8), None];
+
+fn tunings() -> impl Iterator<Item = Tuning> {
+    let depths = |trees| DEPTHS.into_iter().map(move |depth| (trees, depth));
+    TREES.into_iter().flat_map(depths).flat_map(|(trees, depth)| {
+        [false, true].map(|all_features| Tuning { trees, depth, all_features })
+    })
+}
 
 /// Predicts each trial by a forest learned from the other folds: ordered states by their numbers, categories by a column for each.
 pub fn forest(
@@ -38,34 +57,47 @@ pub fn forest(
         .map(|&state| u32::from(state == outcome.success))
         .collect();
     let folds = fold_of.iter().max().map_or(0, |last| last + 1);
+    let of_folds = (0..folds)
+        .into_par_iter()
+        .map(|fold| one_fold(&features, &came, fold_of, fold, seed))
+        .collect::<Result<Vec<_>, _>>()?;
     let mut predictions: Vec<Option<Prediction>> = vec![None; table.len()];
     let mut tuned = Vec::with_capacity(folds);
-    for fold in 0..folds {
-        let failed = |what: String| EvaluateError::Learn { fold: fold + 1, what };
-        let seen: Vec<usize> = (0..table.len()).filter(|&row| fold_of[row] != fold).collect();
-        let hidden: Vec<usize> = (0..table.len()).filter(|&row| fold_of[row] == fold).collect();
-        let (tried, held): (Vec<usize>, Vec<usize>) = seen.iter().partition(|row| *row % 4 != 0);
-        let mut best: Option<(f64, (u16, Option<u16>))> = None;
-        for trees in TREES {
-            for depth in DEPTHS {
-                let found = predict(&features, &came, &tried, &held, (trees, depth), seed)
-                    .map_err(failed)?;
-                let f1 = Scores::of(&judged(&held, &found, &came, fold)).f1;
-                if best.is_none_or(|(highest, _)| f1 > highest) {
-                    best = Some((f1, (trees, depth)));
-                }
-            }
-        }
-        let (_, chosen) = best.expect("some were tried");
-        tuned.push(chosen);
-        let found = predict(&features, &came, &seen, &hidden, chosen, seed).map_err(failed)?;
-        for (&row, prediction) in hidden.iter().zip(judged(&hidden, &found, &came, fold)) {
+    for (tuning, rows) in of_folds {
+        tuned.push(tuning);
+        for (row, prediction) in rows {
             predictions[row] = Some(prediction);
         }
     }
     let predictions =
         predictions.into_iter().map(|one| one.expect("each row is in a fold")).collect();
     Ok(Forest { predictions, tuned })
+}
+
+/// How the forest of a fold was tuned, and what it predicts of the fold's rows.
+fn one_fold(
+    features: &[Vec<f64>],
+    came: &[u32],
+    fold_of: &[usize],
+    fold: usize,
+    seed: u64,
+) -> Result<(Tuning, Vec<(usize, Prediction)>), EvaluateError> {
+    let failed = |what: String| EvaluateError::Learn { fold: fold + 1, what };
+    let seen: Vec<usize> = (0..came.len()).filter(|&row| fold_of[row] != fold).collect();
+    let hidden: Vec<usize> = (0..came.len()).filter(|&row| fold_of[row] == fold).collect();
+    let (tried, held): (Vec<usize>, Vec<usize>) = seen.iter().partition(|row| *row % 4 != 0);
+    let mut best: Option<(f64, Tuning)> = None;
+    for tuning in tunings() {
+        let found = predict(features, came, &tried, &held, tuning, seed).map_err(failed)?;
+        let f1 = Scores::of(&judged(&held, &found, came, fold)).f1;
+        if best.is_none_or(|(highest, _)| f1 > highest) {
+            best = Some((f1, tuning));
+        }
+    }
+    let (_, chosen) = best.expect("some were tried");
+    let found = predict(features, came, &seen, &hidden, chosen, seed).map_err(failed)?;
+    let predictions = judged(&hidden, &found, came, fold);
+    Ok((chosen, hidden.into_iter().zip(predictions).collect()))
 }
 
 /// A row of numbers for each trial.
@@ -91,7 +123,7 @@ fn predict(
     came: &[u32],
     seen: &[usize],
     hidden: &[usize],
-    (trees, depth): (u16, Option<u16>),
+    tuning: Tuning,
     seed: u64,
 ) -> Result<Vec<u32>, String> {
     let matrix = |rows: &[usize]| {
@@ -99,8 +131,9 @@ fn predict(
         DenseMatrix::from_2d_vec(&rows).map_err(|error| error.to_string())
     };
     let mut parameters =
-        RandomForestClassifierParameters::default().with_n_trees(trees).with_seed(seed);
-    parameters.max_depth = depth;
+        RandomForestClassifierParameters::default().with_n_trees(tuning.trees).with_seed(seed);
+    parameters.max_depth = tuning.depth;
+    parameters.m = tuning.all_features.then(|| features.first().map_or(1, Vec::len));
     let labels: Vec<u32> = seen.iter().map(|&row| came[row]).collect();
     let forest = RandomForestClassifier::fit(&matrix(seen)?, &labels, parameters)
         .map_err(|error| error.to_string())?;

@@ -10,11 +10,11 @@ use clap::{Args, Subcommand, ValueEnum};
     arg_required_else_help = true,
     after_help = "\
 Examples:
-  caveat causal discover domains/one-cube/trials.csv --set xOff,yOff,dropOff -o cube.cbn.json
+  caveat causal discover domains/one-cube/trials.csv --recipe domains/one-cube/recipe.json -o cube.cbn.json
       which variables cause which, and how probable success is
   caveat causal query cube.cbn.json onTop --do xOff=2.1
       what happens where a variable is set
-  caveat causal evaluate domains/one-cube/trials.csv --goal onTop=1 --set xOff,yOff,dropOff
+  caveat causal evaluate domains/one-cube/trials.csv --recipe domains/one-cube/recipe.json --goal onTop=1
       how well success is predicted in trials that were not learned from
 
 Exit codes: 0 done, 1 there is something to look at, 2 could not run."
@@ -309,7 +309,7 @@ pub struct Query {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  caveat causal evaluate domains/one-cube/trials.csv --goal onTop=1 --set xOff,yOff,dropOff
+  caveat causal evaluate domains/one-cube/trials.csv --recipe domains/one-cube/recipe.json --goal onTop=1
       learn from nine tenths, predict the last, ten times
   caveat causal evaluate domains/one-cube/trials.csv --goal onTop=1 --arcs xOff:onTop,dropOff:onTop --forest
       a graph by hand, and a random forest beside it
