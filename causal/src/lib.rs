@@ -20,6 +20,7 @@
 //! - [`score`]: how well a graph fits;
 //! - [`independence`]: what does not depend on what;
 //! - [`discover`](mod@discover): the graph that fits best;
+//! - [`notears`]: a linear graph of quantities that are not cut;
 //! - [`network`]: a graph with probabilities;
 //! - [`bootstrap`]: how sure its arcs are;
 //! - [`estimate`](mod@estimate): the probabilities that fit best;
@@ -45,6 +46,7 @@ pub mod knowledge;
 pub mod score;
 pub mod independence;
 pub mod discover;
+pub mod notears;
 pub mod network;
 pub mod bootstrap;
 pub mod estimate;

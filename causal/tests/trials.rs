@@ -7,8 +7,8 @@ use causal::count::Counter;
 use causal::discretize::{declare, discretize};
 use causal::place::{Policy, Unfit};
 use causal::recipe::{Cuts, Declared, Recipe};
-use causal::source::csv::{Csv, Open};
-use causal::source::parquet::Parquet;
+use causal::source::csv::{self, Csv};
+use causal::source::parquet::{Open, Parquet};
 use causal::source::{Fault, Source};
 use causal::stream::{self, Stream};
 use causal::survey::survey;
@@ -19,7 +19,7 @@ use causal::variable::{Variable, VariableId};
 fn files(texts: &[(&str, &str)]) -> Result<Csv, Fault> {
     let files = texts.iter().map(|(name, text)| {
         let text: Arc<[u8]> = text.as_bytes().into();
-        let open: Open = Box::new(move || {
+        let open: csv::Open = Box::new(move || {
             Ok(Box::new(std::io::Cursor::new(text.clone())) as Box<dyn Read + Send>)
         });
         ((*name).to_owned(), open)
@@ -208,12 +208,34 @@ fn parquet_says_what_csv_says() {
     let text = some_trials(3000);
     let from_csv = load(&csv(&text)).unwrap();
     let bytes = written(&text);
-    let source = Parquet::new(vec![("t.parquet".to_owned(), bytes.clone())]).unwrap();
+    let of = |bytes: &bytes::Bytes| -> Open<bytes::Bytes> {
+        let bytes = bytes.clone();
+        Box::new(move || Ok(bytes.clone()))
+    };
+    let source = Parquet::new(vec![("t.parquet".to_owned(), of(&bytes))]).unwrap();
     assert_eq!(source.shards(), 3, "each row group is a shard");
     assert_eq!(load(&source).unwrap(), from_csv);
     let cut = bytes.slice(..bytes.len() / 2);
-    let fault = Parquet::new(vec![("cut.parquet".to_owned(), cut)]).err().unwrap();
+    let fault = Parquet::new(vec![("cut.parquet".to_owned(), of(&cut))]).err().unwrap();
     assert!(fault.to_string().starts_with("cut.parquet: "), "{fault}");
+}
+
+#[test]
+fn threads_that_read_one_file_do_not_disturb_each_other() {
+    let text = some_trials(40_000);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("t.parquet");
+    std::fs::write(&path, written(&text)).unwrap();
+    let open: Open<std::fs::File> = Box::new(move || std::fs::File::open(&path));
+    let source = Parquet::new(vec![("t.parquet".to_owned(), open)]).unwrap();
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(4).build().unwrap();
+    threads.install(|| {
+        let table = load(&source).unwrap();
+        assert_eq!(table, load(&csv(&text)).unwrap());
+        let stream = Stream::new(&source, table.variables(), Policy::default()).unwrap();
+        let sets = [vec![VariableId(0), VariableId(2)]];
+        assert_eq!(stream.count(&sets).unwrap(), table.count(&sets).unwrap());
+    });
 }
 
 /// The trials of [`some_trials`] as Parquet, a thousand in each row group.

@@ -3,6 +3,7 @@
 mod trials;
 mod model;
 mod discover;
+mod linear;
 mod fit;
 mod show;
 mod query;

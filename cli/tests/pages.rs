@@ -23,6 +23,11 @@ fn the_page_on_learning_shows_what_is_printed() {
 }
 
 #[test]
+fn the_page_on_causal_networks_shows_what_is_printed() {
+    holds("docs/causal.md", 12);
+}
+
+#[test]
 fn the_first_command_plans_a_bundled_problem() {
     let page = page();
     let command = page

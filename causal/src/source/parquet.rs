@@ -1,5 +1,7 @@
 //! Parquet goes in; blocks of its cells come out. Each row group is a shard.
 
+use std::io;
+
 use parquet::basic::Type;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::{ByteArray, DataType};
@@ -8,6 +10,10 @@ use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
 use rustc_hash::FxHashMap;
 
 use super::{BLOCK, Block, Cells, Fault, MISSING, Source};
+
+/// Opens a file again. What is opened must have a place of its own to read from: clones of one file share theirs, and threads would
+/// read from each other's.
+pub type Open<R> = Box<dyn Fn() -> io::Result<R> + Sync + Send>;
 
 /// Trials in Parquet files.
 pub struct Parquet<R: ChunkReader + 'static> {
@@ -19,17 +25,17 @@ pub struct Parquet<R: ChunkReader + 'static> {
 
 struct File<R: ChunkReader + 'static> {
     name: String,
-    reader: SerializedFileReader<R>,
+    open: Open<R>,
     /// Where each column of the first file is in this one.
     order: Vec<usize>,
 }
 
 impl<R: ChunkReader + 'static> Parquet<R> {
     /// Reads what each file says of itself at its end. Each comes with its name, for messages.
-    pub fn new(files: Vec<(String, R)>) -> Result<Self, Fault> {
+    pub fn new(files: Vec<(String, Open<R>)>) -> Result<Self, Fault> {
         let mut this = Self { columns: Vec::new(), files: Vec::new(), shards: Vec::new() };
-        for (name, file) in files {
-            let reader = SerializedFileReader::new(file).map_err(|error| fault(&name, &error))?;
+        for (name, open) in files {
+            let reader = reader(&name, &open)?;
             let header: Vec<String> = names(&name, &reader)?;
             if this.files.is_empty() {
                 this.columns.clone_from(&header);
@@ -48,10 +54,19 @@ impl<R: ChunkReader + 'static> Parquet<R> {
                 this.shards.push((this.files.len(), group, first));
                 first += reader.metadata().row_group(group).num_rows() as u64;
             }
-            this.files.push(File { name, reader, order });
+            this.files.push(File { name, open, order });
         }
         Ok(this)
     }
+}
+
+/// Opens a file, and reads what it says of itself.
+fn reader<R: ChunkReader + 'static>(
+    name: &str,
+    open: &Open<R>,
+) -> Result<SerializedFileReader<R>, Fault> {
+    let file = open().map_err(|error| Fault::new(name, error.to_string()))?;
+    SerializedFileReader::new(file).map_err(|error| fault(name, &error))
 }
 
 /// The columns of a file: each plain, since a trial is a row of plain values.
@@ -105,7 +120,8 @@ impl<R: ChunkReader + 'static> Source for Parquet<R> {
         each: &mut dyn FnMut(&Block) -> Result<(), Fault>,
     ) -> Result<(), Fault> {
         let (file, group, first) = self.shards[shard];
-        let File { name, reader, order } = &self.files[file];
+        let File { name, open, order } = &self.files[file];
+        let reader = reader(name, open)?;
         let complain = |error: ParquetError| fault(name, &error);
         let group = reader.get_row_group(group).map_err(complain)?;
         let mut readers: Vec<Column> = columns

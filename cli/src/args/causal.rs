@@ -138,6 +138,8 @@ pub enum Method {
     Iamb,
     /// Max-min hill climbing.
     Mmhc,
+    /// A linear graph of the quantities themselves (NOTEARS).
+    Notears,
 }
 
 /// What tests independence.

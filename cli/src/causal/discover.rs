@@ -14,7 +14,7 @@ use ::causal::stream::{self, Stream};
 use ::causal::table::Table;
 use ::causal::variable::VariableId;
 
-use super::{model, trials};
+use super::{linear, model, trials};
 use crate::args::causal::{Discover, Format, Learner, Method, Test};
 use crate::exit::Exit;
 use crate::files::{self, Complaint};
@@ -22,6 +22,9 @@ use crate::terminal::Terminal;
 
 /// Runs the verb.
 pub fn run(arguments: &Discover, terminal: &mut Terminal) -> Result<Exit, Complaint> {
+    if arguments.learner.method == Method::Notears {
+        return linear::run(arguments, terminal);
+    }
     let config = config(&arguments.learner)?;
     let estimator = model::estimator(&arguments.estimate)?;
     if arguments.stream && arguments.bootstrap.is_some() {
@@ -186,6 +189,10 @@ pub fn config(learner: &Learner) -> Result<Config, Complaint> {
             Method::GrowShrink => Learned::GrowShrink,
             Method::Iamb => Learned::Iamb,
             Method::Mmhc => Learned::Mmhc,
+            Method::Notears => {
+                let message = "`notears` learns from quantities, not from states";
+                return Err(Complaint::with_help(message, "`caveat causal discover` takes it"));
+            }
         },
         score,
         test: match learner.test {

@@ -10,7 +10,7 @@ use ::causal::network::Goal;
 use ::causal::place::{Policy, Unfit};
 use ::causal::recipe::{Cuts, Declared, Recipe};
 use ::causal::source::csv::{Csv, Open};
-use ::causal::source::parquet::Parquet;
+use ::causal::source::parquet::{self, Parquet};
 use ::causal::source::{Fault, Source};
 use ::causal::survey::survey;
 use ::causal::variable::{Role, Variable};
@@ -30,13 +30,12 @@ pub fn open(arguments: &Trials) -> Result<Box<dyn Source>, Complaint> {
         |path: &Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"));
     let parquets = arguments.files.iter().filter(|path| is_parquet(path)).count();
     if parquets == arguments.files.len() {
-        let files = arguments
-            .files
-            .iter()
-            .map(|path| {
-                Ok((files::name(path), File::open(path).map_err(|error| unreadable(path, &error))?))
-            })
-            .collect::<Result<Vec<_>, Complaint>>()?;
+        let files = arguments.files.iter().map(|path| {
+            let own = path.clone();
+            let open: parquet::Open<File> = Box::new(move || File::open(&own));
+            (files::name(path), open)
+        });
+        let files = files.collect();
         return Ok(Box::new(Parquet::new(files).map_err(|fault| complain(&fault))?));
     }
     if parquets > 0 {
