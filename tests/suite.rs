@@ -2,6 +2,7 @@
 
 mod agents;
 mod bad;
+mod causal;
 mod compiled;
 mod costs;
 mod domains;

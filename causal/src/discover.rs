@@ -119,7 +119,7 @@ pub enum DiscoverError {
     #[error(transparent)]
     Knowledge(#[from] KnowledgeError),
     /// No graph has so few parents and all arcs that are required.
-    #[error("`{0}` has more required causes than the {1} parents that a variable may have")]
+    #[error("`{0}` has more required causes than a variable may have parents, which is {1}")]
     TooManyRequired(String, usize),
     /// Counting failed.
     #[error(transparent)]

@@ -20,7 +20,7 @@ pub const MOST_NUMBERED: usize = 12;
 pub struct Discretized {
     /// The variables, with their states.
     pub variables: Vec<Variable>,
-    /// What a person should know: a variable that never varies, states that fell together.
+    /// What a person should know: states that fell together.
     pub notes: Vec<String>,
     /// What was tried for the variables whose number of intervals was searched.
     pub searched: Option<number::Search>,
@@ -100,12 +100,7 @@ pub fn discretize(
             Cuts::Quantile(states) | Cuts::Width(states) | Cuts::KMeans(states) => states,
             _ => variable.arity(),
         };
-        if variable.arity() == 1 {
-            notes.push(format!(
-                "`{}` is the same in every trial: nothing can be learned of it",
-                one.name
-            ));
-        } else if variable.arity() < asked {
+        if (2..asked).contains(&variable.arity()) {
             let arity = variable.arity();
             notes.push(format!(
                 "`{}` has {arity} states instead of {asked}: many trials have one value",

@@ -13,6 +13,7 @@
 //! - [`table`]: trials as states, column by column;
 //! - [`count`](mod@count): how often states go together, whoever counts them;
 //! - [`stream`]: tables and counts out of files of any length;
+//! - [`sql`](mod@sql): the same counts where trials lie in a database;
 //! - [`graph`]: which variables cause which;
 //! - [`set`]: variables as bits;
 //! - [`pattern`]: graphs that fit data equally well;
@@ -39,6 +40,7 @@ pub mod place;
 pub mod table;
 pub mod count;
 pub mod stream;
+pub mod sql;
 pub mod graph;
 pub mod set;
 pub mod pattern;

@@ -9,7 +9,7 @@ use crate::network::Network;
 use crate::variable::VariableId;
 
 /// Sizes in pixels.
-const BOX: f64 = 190.0;
+const BOX: f64 = 230.0;
 const TITLE: f64 = 24.0;
 const ROW: f64 = 15.0;
 const GAP: f64 = 28.0;
@@ -220,8 +220,8 @@ fn node(
              <text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{:.1} %</text>\n",
             left + 8.0,
             middle + 10.0,
-            escaped(&shortened(&label, 14)),
-            left + 92.0,
+            escaped(&shortened(&label, 22)),
+            left + 132.0,
             middle + 2.0,
             (probability * 50.0).max(0.5),
             left + BOX - 6.0,

@@ -139,12 +139,11 @@ pub fn states(
         if let (Some((shard, row)), 1..) = (surveyed.first_missing, surveyed.missing)
             && arguments.missing == Choice::Refuse
         {
-            let message = format!(
-                "{}: `{}` is missing, here and in {} trials in all",
-                source.place(shard, row),
-                one.name,
-                surveyed.missing
-            );
+            let more = match surveyed.missing {
+                1 => String::new(),
+                all => format!(", here and in {} more trials", all - 1),
+            };
+            let message = format!("{}: `{}` is missing{more}", source.place(shard, row), one.name);
             return Err(Complaint::with_help(message, "`--missing drop` leaves such trials out"));
         }
     }
