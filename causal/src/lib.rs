@@ -41,6 +41,8 @@ pub mod table;
 pub mod count;
 pub mod stream;
 pub mod sql;
+#[cfg(feature = "datafusion")]
+pub mod cluster;
 pub mod graph;
 pub mod set;
 pub mod pattern;
