@@ -25,9 +25,9 @@
 //! - [`network`]: a graph with probabilities;
 //! - [`bootstrap`]: how sure its arcs are;
 //! - [`estimate`](mod@estimate): the probabilities that fit best;
-//! - [`infer`]: what follows from what is seen or set;
+//! - [`infer`](mod@infer): what follows from what is seen or set;
 //! - [`evaluate`]: how well outcomes are predicted;
-//! - [`file`]: networks as text and as pictures.
+//! - [`file`](mod@file): networks as text and as pictures.
 
 pub mod source;
 pub mod derive;

@@ -18,7 +18,7 @@ import warnings
 warnings.filterwarnings("ignore")
 NETS = ["asia", "sachs", "child", "insurance", "alarm"]
 FILES = ["p1", "p2"]
-LIMIT = 600
+LIMIT = int(os.environ.get("LIMIT", "600"))
 
 
 def path(corpus, net, file):
@@ -57,7 +57,7 @@ def pattern_of_arcs(names, arcs):
 def pgmpy_data(file):
     import pandas
 
-    return pandas.read_csv(file, dtype=str).astype("category")
+    return pandas.read_csv(file, dtype=str, keep_default_na=False).astype("category")
 
 
 def gum_learner(file):
@@ -123,7 +123,7 @@ def run_pgmpy(method, file):
 def run_cl(method, file):
     import pandas
 
-    data = pandas.read_csv(file, dtype=str)
+    data = pandas.read_csv(file, dtype=str, keep_default_na=False)
     names = list(data.columns)
     numbers = data.apply(lambda column: column.astype("category").cat.codes).to_numpy()
     if method == "PC":
@@ -222,14 +222,13 @@ def fit_gum(corpus, net):
 
 
 def fit_pgmpy(corpus, net):
-    from pgmpy.estimators import BayesianEstimator
     from pgmpy.models import DiscreteBayesianNetwork
     from pgmpy.readwrite import BIFReader
 
     data = pgmpy_data(path(corpus, net, "p1"))
-    model = DiscreteBayesianNetwork(list(BIFReader(f"{corpus}/bif/{net}.bif").get_edges()))
+    model = DiscreteBayesianNetwork(list(BIFReader(f"{corpus}/bif/{net}.bif").get_model().edges()))
     start = time.process_time()
-    model.fit(data, estimator=BayesianEstimator, prior_type="BDeu", equivalent_sample_size=1)
+    model.fit(data)
     return time.process_time() - start
 
 
@@ -288,7 +287,10 @@ def answers_pgmpy(file, net, corpus):
     found = {}
     for name in model.nodes():
         factor = engine.query([name], show_progress=False)
-        found[name] = {state: float(factor.values[at]) for at, state in enumerate(factor.state_names[name])}
+        # In the order of the file, which a query may have changed.
+        order = model.get_cpds(name).state_names[name]
+        values = dict(zip(factor.state_names[name], map(float, factor.values)))
+        found[name] = [values[state] for state in order]
     return found
 
 
@@ -310,10 +312,6 @@ def read(corpus, caveat, nets):
                 plain = lambda name: name if name in answer else "".join(c if c.isascii() and c.isalnum() else "_" for c in name)
                 for name, states in ours.items():
                     theirs = answer[plain(name)]
-                    if isinstance(theirs, dict):
-                        # By name: other tools sort states.
-                        written = lambda state: state if state in theirs else next((one for one in theirs if one.lstrip("s_") == "".join(c if c.isascii() and c.isalnum() else "_" for c in state).lstrip("s_")), None)
-                        theirs = [theirs[written(one["state"])] for one in states]
                     worst = max([worst] + [abs(one["probability"] - other) for one, other in zip(states, theirs)])
                 print(f"| {net} | {ending} | {tool} | {worst:.1e} |", flush=True)
 

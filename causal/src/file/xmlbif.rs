@@ -16,7 +16,7 @@ use crate::variable::{States, Variable, VariableId};
 const MARK: &str = "caveat_variable = ";
 
 const HEAD: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
-<BIF VERSION="0.3" xmlns="http://www.cs.ubc.ca/labs/lci/fopi/ve/XMLBIFv0_3">
+<BIF VERSION="0.3">
 <NETWORK>
 <NAME>caveat</NAME>
 "#;
@@ -32,7 +32,10 @@ pub fn write(network: &Network) -> Result<String, String> {
             put!(text, "  <OUTCOME>{state}</OUTCOME>\n");
         }
         if *variable != Variable::new(name, States::Categories(states)) {
-            let json = serde_json::to_string(variable).expect("a variable is JSON");
+            // An equals sign can only be within a string; other readers part properties at the first.
+            let json = serde_json::to_string(variable)
+                .expect("a variable is JSON")
+                .replace('=', "\\u003d");
             put!(text, "  <PROPERTY>{MARK}{}</PROPERTY>\n", escape(json));
         }
         text.push_str("</VARIABLE>\n");
