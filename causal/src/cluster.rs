@@ -1,8 +1,10 @@
-//! A DataFusion session goes in, embedded or on a Ballista cluster; counts of the trials that it knows come out (feature `datafusion`).
+//! A `DataFusion` session goes in, embedded or on a Ballista cluster; counts of the trials that it knows come out (feature `datafusion`).
 //!
 //! A cluster holds logs that no machine holds. What is asked of it is the same GROUP BY ([`sql`](mod@crate::sql)), and the numbers are
 //! the same.
 
+#[cfg(feature = "ballista")]
+use ballista::prelude::SessionContextExt;
 use datafusion::arrow::array::{Array, AsArray};
 use datafusion::arrow::datatypes::Int64Type;
 use datafusion::error::DataFusionError;
@@ -16,24 +18,62 @@ use crate::variable::{Variable, VariableId};
 /// What the trials are called in the session.
 const RELATION: &str = "trials";
 
+/// Who runs the SQL.
+pub struct Engine {
+    session: SessionContext,
+    runtime: Runtime,
+}
+
+impl Engine {
+    /// `DataFusion`, in this process.
+    pub fn embedded() -> Result<Self, CountError> {
+        Ok(Self { session: SessionContext::new(), runtime: runtime()? })
+    }
+
+    /// A Ballista cluster whose scheduler is at a URL: `df://localhost:50050`. Its executors must reach the trials by the same path.
+    #[cfg(feature = "ballista")]
+    pub fn scheduler(url: &str) -> Result<Self, CountError> {
+        let runtime = runtime()?;
+        let session =
+            runtime.block_on(SessionContext::remote(url)).map_err(|error| fault(&error))?;
+        Ok(Self { session, runtime })
+    }
+
+    /// A Ballista cluster of this process: a scheduler and an executor that talk over the loopback interface.
+    #[cfg(feature = "ballista")]
+    pub fn standalone() -> Result<Self, CountError> {
+        let runtime = runtime()?;
+        let session =
+            runtime.block_on(SessionContext::standalone()).map_err(|error| fault(&error))?;
+        Ok(Self { session, runtime })
+    }
+}
+
+fn runtime() -> Result<Runtime, CountError> {
+    tokio::runtime::Builder::new_multi_thread()
+        .enable_all()
+        .build()
+        .map_err(|error| CountError::Source(error.to_string()))
+}
+
 /// Counts by SQL.
 pub struct Cluster<'a> {
-    session: SessionContext,
-    runtime: &'a Runtime,
+    engine: &'a Engine,
     variables: &'a [Variable],
     rows: u64,
     dropped: u64,
 }
 
 impl<'a> Cluster<'a> {
-    /// Makes the trials known to a session: a file or a folder, of Parquet or of CSV with a line of names.
+    /// Makes the trials known to an engine: a file of CSV with a line of names, a file of Parquet, or a folder of Parquet (its path ends
+    /// in `/`).
     pub fn new(
-        session: SessionContext,
-        runtime: &'a Runtime,
+        engine: &'a Engine,
         path: &str,
         variables: &'a [Variable],
     ) -> Result<Self, CountError> {
         let parquet = path.ends_with(".parquet") || path.ends_with('/');
+        let Engine { session, runtime } = engine;
         runtime
             .block_on(async {
                 if parquet {
@@ -43,7 +83,7 @@ impl<'a> Cluster<'a> {
                 }
             })
             .map_err(|error| fault(&error))?;
-        let mut this = Self { session, runtime, variables, rows: 0, dropped: 0 };
+        let mut this = Self { engine, variables, rows: 0, dropped: 0 };
         let (counts, dropped) = this.ask(&[])?;
         (this.rows, this.dropped) = (counts[0], dropped);
         Ok(this)
@@ -59,9 +99,9 @@ impl<'a> Cluster<'a> {
         let mut counts = vec![0; cells(self.variables, set)?];
         let mut dropped = 0;
         let query = sql::count(RELATION, self.variables, set).map_err(CountError::Source)?;
-        let batches = self
-            .runtime
-            .block_on(async { self.session.sql(&query).await?.collect().await })
+        let Engine { session, runtime } = self.engine;
+        let batches = runtime
+            .block_on(async { session.sql(&query).await?.collect().await })
             .map_err(|error| fault(&error))?;
         for batch in batches {
             let cells = batch.column(0).as_primitive::<Int64Type>();

@@ -48,6 +48,23 @@ pub enum Method {
     Mmhc,
 }
 
+impl std::fmt::Display for Method {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Auto => "auto",
+            Self::Exact => "exact",
+            Self::Greedy => "greedy",
+            Self::Order => "order",
+            Self::Hill => "hill",
+            Self::Tabu => "tabu",
+            Self::Pc => "pc",
+            Self::GrowShrink => "grow-shrink",
+            Self::Iamb => "iamb",
+            Self::Mmhc => "mmhc",
+        })
+    }
+}
+
 /// How to learn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Config {

@@ -3,14 +3,13 @@
 
 use std::fs;
 
-use causal::cluster::Cluster;
+use causal::cluster::{Cluster, Engine};
 use causal::count::Counter;
 use causal::discover::{Config, discover};
 use causal::estimate::{Estimator, estimate};
 use causal::knowledge::Knowledge;
 use causal::table::Table;
 use causal::variable::{Variable, VariableId};
-use datafusion::prelude::SessionContext;
 
 /// Trials as a table and as a file of CSV.
 fn trials() -> (Table, tempfile::TempDir) {
@@ -39,12 +38,12 @@ fn trials() -> (Table, tempfile::TempDir) {
     (Table::new(variables, columns).expect("states of the variables"), folder)
 }
 
-/// Whether a session counts what the table counts, and learns the same from it.
-fn holds(session: SessionContext, runtime: &tokio::runtime::Runtime) {
+/// Whether an engine counts what the table counts, and learns the same from it.
+fn holds(engine: &Engine) {
     let (table, folder) = trials();
     let path = folder.path().join("trials.csv");
     let path = path.to_str().expect("the path is text");
-    let cluster = Cluster::new(session, runtime, path, table.variables()).expect("the trials are known");
+    let cluster = Cluster::new(engine, path, table.variables()).expect("the trials are known");
     assert_eq!(cluster.rows(), table.rows());
     assert_eq!(cluster.dropped(), 2000 - table.rows());
     assert!(cluster.dropped() > 0, "some trials lie outside");
@@ -59,21 +58,14 @@ fn holds(session: SessionContext, runtime: &tokio::runtime::Runtime) {
     assert_eq!(learn(&cluster), learn(&table));
 }
 
-fn runtime() -> tokio::runtime::Runtime {
-    tokio::runtime::Builder::new_multi_thread().enable_all().build().expect("threads")
-}
-
 #[test]
 fn datafusion_counts_as_a_table_does() {
-    holds(SessionContext::new(), &runtime());
+    holds(&Engine::embedded().expect("an engine of this process"));
 }
 
 /// A scheduler and an executor of this process, which talk over the loopback interface.
 #[cfg(feature = "ballista")]
 #[test]
 fn a_cluster_counts_as_a_table_does() {
-    use ballista::prelude::SessionContextExt;
-    let runtime = runtime();
-    let session = runtime.block_on(SessionContext::standalone()).expect("a cluster on this machine");
-    holds(session, &runtime);
+    holds(&Engine::standalone().expect("a cluster on this machine"));
 }

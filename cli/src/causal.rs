@@ -4,6 +4,8 @@ mod trials;
 mod model;
 mod discover;
 mod linear;
+#[cfg(feature = "datafusion")]
+mod cluster;
 mod fit;
 mod show;
 mod query;

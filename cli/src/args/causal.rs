@@ -115,6 +115,19 @@ pub struct Learner {
     pub max_parents: Option<usize>,
 }
 
+/// Who counts, where that is not this program.
+#[cfg(feature = "datafusion")]
+#[derive(Debug, Args)]
+pub struct Engine {
+    /// Count by SQL, with `DataFusion` in this process; the trials are one file, or a folder of Parquet.
+    #[arg(long, conflicts_with = "stream")]
+    pub sql: bool,
+    /// Count by SQL on the Ballista cluster of this scheduler, such as `df://localhost:50050`.
+    #[cfg(feature = "ballista")]
+    #[arg(long, value_name = "URL", conflicts_with_all = ["stream", "sql"])]
+    pub scheduler: Option<String>,
+}
+
 /// Who learns a graph.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Method {
@@ -182,6 +195,10 @@ pub struct Discover {
     /// How to learn.
     #[command(flatten)]
     pub learner: Learner,
+    /// Who counts.
+    #[cfg(feature = "datafusion")]
+    #[command(flatten)]
+    pub engine: Engine,
     /// Learn from so many resampled tables, too, and say how often each arc is found.
     #[arg(long, value_name = "N")]
     pub bootstrap: Option<u64>,
@@ -219,6 +236,10 @@ pub struct Fit {
     /// The trials.
     #[command(flatten)]
     pub trials: Trials,
+    /// Who counts.
+    #[cfg(feature = "datafusion")]
+    #[command(flatten)]
+    pub engine: Engine,
     /// A model whose graph and states are taken.
     #[arg(long, value_name = "MODEL", conflicts_with = "arcs", required_unless_present = "arcs")]
     pub model: Option<PathBuf>,

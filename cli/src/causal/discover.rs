@@ -45,7 +45,14 @@ pub fn run(arguments: &Discover, terminal: &mut Terminal) -> Result<Exit, Compla
             .map_err(|error| Complaint::new(error.to_string()))?;
         Ok((found, network))
     };
-    let (found, mut network, table) = if arguments.stream {
+    #[cfg(feature = "datafusion")]
+    let elsewhere =
+        super::cluster::counted(&arguments.engine, &arguments.trials, &variables, terminal, learn)?;
+    #[cfg(not(feature = "datafusion"))]
+    let elsewhere: Option<(Discovery, Network)> = None;
+    let (found, mut network, table) = if let Some((found, network)) = elsewhere {
+        (found, network, None)
+    } else if arguments.stream {
         let stream =
             Stream::new(&*source, &variables, policy).map_err(|fault| trials::complain(&fault))?;
         trials::tell_dropped(stream.dropped(), terminal);
@@ -88,7 +95,7 @@ fn describe(network: &mut Network, found: &Discovery, knowledge: &Knowledge, arg
     let about = &mut network.about;
     about.undirected = undirected;
     about.files = arguments.trials.files.iter().map(|path| files::name(path)).collect();
-    about.method = Some(format!("{:?}", found.method).to_lowercase());
+    about.method = Some(found.method.to_string());
     about.score = Some(found.score);
     about.knowledge = (*knowledge != Knowledge::default()).then(|| knowledge.clone());
     about.notes.clone_from(&found.notes);

@@ -15,12 +15,12 @@ use crate::terminal::Terminal;
 
 /// Runs the verb.
 pub fn run(arguments: &Fit, terminal: &mut Terminal) -> Result<Exit, Complaint> {
-    let source = trials::open(&arguments.trials)?;
     let given = arguments.model.as_deref().map(model::read).transpose()?;
     let prior = arguments.prior.as_deref().map(model::read).transpose()?;
     let (variables, graph): (Vec<Variable>, Dag) = if let Some(network) = &given {
         (network.variables().to_vec(), network.graph().clone())
     } else {
+        let source = trials::open(&arguments.trials)?;
         let declared = trials::declared(&arguments.trials, None, &*source)?;
         let variables = trials::states(&arguments.trials, &declared, &*source, terminal)?;
         let graph = model::graph(&variables, &arguments.arcs)?;
@@ -34,13 +34,22 @@ pub fn run(arguments: &Fit, terminal: &mut Terminal) -> Result<Exit, Complaint> 
     let fit = |counter: &dyn Counter| {
         estimate(counter, &graph, estimator).map_err(|error| Complaint::new(error.to_string()))
     };
-    let (network, table): (Network, _) = if arguments.stream {
+    #[cfg(feature = "datafusion")]
+    let elsewhere =
+        super::cluster::counted(&arguments.engine, &arguments.trials, &variables, terminal, fit)?;
+    #[cfg(not(feature = "datafusion"))]
+    let elsewhere: Option<Network> = None;
+    let (network, table): (Network, _) = if let Some(network) = elsewhere {
+        (network, None)
+    } else if arguments.stream {
+        let source = trials::open(&arguments.trials)?;
         let stream = Stream::unread(&*source, &variables, policy)
             .map_err(|fault| trials::complain(&fault))?;
         let network = fit(&stream)?;
         trials::tell_dropped(stream.dropped(), terminal);
         (network, None)
     } else {
+        let source = trials::open(&arguments.trials)?;
         let (table, dropped) = stream::table(&*source, &variables, policy)
             .map_err(|fault| trials::complain(&fault))?;
         trials::tell_dropped(dropped, terminal);

@@ -187,6 +187,12 @@ pub fn policy(arguments: &Trials) -> Policy {
     Policy { missing: unfit(arguments.missing), outside: unfit(arguments.outside) }
 }
 
+/// The policy that leaves out whatever does not fit.
+#[cfg(feature = "datafusion")]
+pub fn dropping() -> Policy {
+    Policy { missing: Unfit::Drop, outside: Unfit::Drop }
+}
+
 /// What is known before, from the command line and its file.
 pub fn knowledge(known: &Known) -> Result<Knowledge, Complaint> {
     let mut knowledge = match &known.knowledge {
