@@ -1,4 +1,4 @@
-//! The same trials go to a table, to DataFusion and to a Ballista cluster on this machine, and all must count the same.
+//! The same trials go to a table, to `DataFusion` and to a Ballista cluster on this machine, and all must count the same.
 #![cfg(feature = "datafusion")]
 
 use std::fs;

@@ -32,9 +32,9 @@ fn corpus() -> Option<PathBuf> {
     None
 }
 
-fn json(path: PathBuf) -> serde_json::Value {
+fn json(path: &PathBuf) -> serde_json::Value {
     let text =
-        fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     serde_json::from_str(&text).expect("the corpus is JSON")
 }
 
@@ -50,7 +50,7 @@ fn load(path: PathBuf) -> Table {
 /// What the default learner makes of a table, and how far it is from the truth.
 fn learned(folder: &std::path::Path, net: &str, file: &str) -> (Discovery, usize) {
     let table = load(folder.join(format!("causal/data/{net}_{file}_10000.csv")));
-    let truth = json(folder.join(format!("causal/truth/{net}.json")));
+    let truth = json(&folder.join(format!("causal/truth/{net}.json")));
     let id =
         |name: &serde_json::Value| table.named(name.as_str().expect("a name")).expect("a column");
     let arcs =
@@ -64,7 +64,7 @@ fn learned(folder: &std::path::Path, net: &str, file: &str) -> (Discovery, usize
 #[test]
 fn the_best_graphs_have_the_proven_scores() {
     let Some(folder) = corpus() else { return };
-    let known = json(folder.join("causal/exact.json"));
+    let known = json(&folder.join("causal/exact.json"));
     for (net, file) in [("asia", "p1"), ("asia", "p2"), ("sachs", "p1")] {
         let (found, distance) = learned(&folder, net, file);
         let best = known[net][file]["bic"].as_f64().expect("a score");
@@ -90,7 +90,7 @@ fn queries_have_the_known_answers() {
             .expect("the network is there");
         let network = bif::read(&text).expect("it is BIF");
         let tree = JunctionTree::new(&network).expect("its cliques are small");
-        let read = |name: &str| json(folder.join(format!("causal/data/{net}_{name}.json")));
+        let read = |name: &str| json(&folder.join(format!("causal/data/{net}_{name}.json")));
         let (queries, answers) = (read("queries"), read("posteriors"));
         let queries =
             queries.as_array().expect("queries").iter().zip(answers.as_array().expect("answers"));
