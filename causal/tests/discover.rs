@@ -156,6 +156,17 @@ proptest! {
 }
 
 #[test]
+fn a_score_that_differs_within_a_class_leads_nobody_round() {
+    for seed in 0..60 {
+        let table = draw(seed, 4, 300);
+        let config = Config { method: Method::Greedy, score: Score::K2, ..Config::default() };
+        let found = discover(&table, &Knowledge::default(), &config).unwrap();
+        let empty = Scorer::new(&table, Score::K2).total(&Dag::empty(4));
+        assert!(found.score >= empty - 1e-9);
+    }
+}
+
+#[test]
 fn what_tests_say_is_as_it_is_whichever_test_says_it() {
     let table = draw(5, 5, 2000);
     let patterns: Vec<Pattern> = [Test::G2, Test::X2, Test::MutualInformation]

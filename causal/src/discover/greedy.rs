@@ -34,8 +34,9 @@ pub fn search(job: &Job) -> Dag {
     let many = job.scorer.len();
     let required = (0..many as u16).map(|id| job.rules.required(VariableId(id)).list()).collect();
     let start = Dag::new(required).expect("required arcs have no cycle");
-    let mut search =
-        Search { job, pattern: Pattern::of(&start), graph: start, operators: FxHashMap::default() };
+    let score = job.scorer.total(&start);
+    let pattern = Pattern::of(&start);
+    let mut search = Search { job, pattern, graph: start, score, operators: FxHashMap::default() };
     let all: Vec<(VariableId, VariableId)> = search.pairs(|_, _| true);
     search.consider(&all);
     while search.step() {}
@@ -45,8 +46,9 @@ pub fn search(job: &Job) -> Dag {
 struct Search<'a> {
     job: &'a Job<'a>,
     pattern: Pattern,
-    /// A graph of the class that knowledge allows.
+    /// A graph of the class that knowledge allows, and its score.
     graph: Dag,
+    score: f64,
     operators: FxHashMap<(VariableId, VariableId), Vec<Operator>>,
 }
 
@@ -77,7 +79,12 @@ impl Search<'_> {
                 .then_with(|| (one.from, one.to, one.with).cmp(&(other.from, other.to, other.with)))
         });
         for operator in operators {
-            if let Some((pattern, graph)) = self.apply(operator) {
+            let Some((pattern, graph)) = self.apply(operator) else { continue };
+            // Under a score that is not the same for all graphs of a class (K2) a step can gain by its own account, and lose in all;
+            // such steps could go round for ever.
+            let score = self.job.scorer.total(&graph);
+            if score > self.score + NOTHING {
+                self.score = score;
                 let before = std::mem::replace(&mut self.pattern, pattern);
                 self.graph = graph;
                 self.refresh(&before);
