@@ -3,106 +3,16 @@
 mod meaning;
 mod worlds;
 
-use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use cli::exit::Exit;
-use cli::terminal::Terminal;
 use serde_json::Value;
-use tempfile::TempDir;
 
+use crate::desk::Desk;
 use crate::domains::caveat;
 use crate::unsolvable::{edit, excuses, folder, problems, read};
-
-/// A folder of its own. In a command line `domains/…` is what is shipped, and files with an ending that is usual here lie in the folder.
-struct Desk {
-    folder: TempDir,
-}
-
-/// What a run left.
-struct Run {
-    exit: Exit,
-    /// What was printed as data.
-    data: String,
-    /// What was said beside it.
-    talk: String,
-}
-
-impl Desk {
-    /// With these files.
-    fn with(files: &[(&str, &str)]) -> Self {
-        let desk = Self { folder: tempfile::tempdir().expect("there is room for a few files") };
-        for (name, text) in files {
-            fs::write(desk.path(name), text).expect("the folder can be written to");
-        }
-        desk
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn file(&self, name: &str) -> String {
-        read(&self.path(name))
-    }
-
-    /// Runs a command line in this process.
-    fn run(&self, command: &str) -> Run {
-        let root = domains::folder();
-        let root = root.parent().expect("the domains lie in the repository");
-        let word = |word: &str| -> OsString {
-            let here = [".pddl", ".plan", ".txt"].iter().any(|end| word.ends_with(end));
-            match word {
-                _ if word.starts_with("domains/") => root.join(word).into(),
-                _ if here || word == "lesson" || word == "task" => self.path(word).into(),
-                _ => word.into(),
-            }
-        };
-        let (mut out, mut err) = (Vec::new(), Vec::new());
-        let arguments = command.split_whitespace().map(word);
-        let exit = cli::call(arguments, &mut Terminal::new(&mut out, &mut err));
-        let text = |bytes: Vec<u8>| {
-            let text = String::from_utf8(bytes).expect("the program prints UTF-8");
-            let text = text.replace(&format!("{}/", self.folder.path().display()), "");
-            untimed(&text.replace(&format!("{}/", root.display()), ""))
-        };
-        Run { exit, data: text(out), talk: text(err) }
-    }
-
-    /// What a run printed, if it ended so.
-    #[track_caller]
-    fn ends(&self, exit: Exit, command: &str) -> String {
-        let run = self.run(command);
-        assert_eq!(run.exit, exit, "{command}\n{}{}", run.data, run.talk);
-        run.data + &run.talk
-    }
-
-    /// The same, with the command line above it.
-    #[track_caller]
-    fn shown(&self, exit: Exit, command: &str) -> String {
-        let printed = self.ends(exit, command);
-        format!("$ {command}\n{printed}[exit code {}]\n", exit.code())
-    }
-
-    /// The JSON document that a run printed.
-    #[track_caller]
-    fn json(&self, command: &str) -> Value {
-        let run = self.run(command);
-        serde_json::from_str(&run.data)
-            .unwrap_or_else(|error| panic!("{command}: {error}\n{}{}", run.data, run.talk))
-    }
-}
-
-/// A text without the time that a run took.
-fn untimed(text: &str) -> String {
-    let line = |line: &str| match line.split_once("\"seconds\": ") {
-        Some((before, _)) => format!("{before}\"seconds\": 0.0,\n"),
-        None => format!("{line}\n"),
-    };
-    text.lines().map(line).collect()
-}
 
 /// Keeps what a command prints, with the command line as description.
 fn keep(name: &str, command: &str, printed: &str) {

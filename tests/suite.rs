@@ -5,6 +5,7 @@ mod bad;
 mod causal;
 mod compiled;
 mod costs;
+mod desk;
 mod domains;
 mod excuses;
 mod joint;

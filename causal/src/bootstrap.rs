@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
+use crate::chance::chance;
 use crate::discover::{Config, DiscoverError, discover};
 use crate::knowledge::Knowledge;
 use crate::network::Strength;
@@ -24,9 +25,7 @@ pub fn strengths(
     let patterns = (0..samples)
         .into_par_iter()
         .map(|sample| {
-            let mixed =
-                fastrand::Rng::with_seed(seed).u64(..) ^ fastrand::Rng::with_seed(sample).u64(..);
-            let mut random = fastrand::Rng::with_seed(mixed);
+            let mut random = chance(seed, sample);
             let rows: Vec<u32> =
                 (0..table.len()).map(|_| random.u32(..table.len() as u32)).collect();
             discover(&table.select(&rows), knowledge, config).map(|found| found.pattern)

@@ -66,7 +66,7 @@ impl Counter for Table {
     }
 
     fn rows(&self) -> u64 {
-        self.rows()
+        self.len() as u64
     }
 
     fn count(&self, sets: &[Vec<VariableId>]) -> Result<Vec<Counts>, CountError> {
@@ -83,7 +83,7 @@ fn count(table: &Table, set: &[VariableId]) -> Result<Counts, CountError> {
     let mut counts = vec![0; cells(table.variables(), set)?];
     let columns: Vec<(&[State], usize)> =
         set.iter().map(|&id| (table.column(id), table.variable(id).arity())).collect();
-    tally(&columns, table.len(), table.weights(), &mut counts);
+    tally(&columns, table.len(), &mut counts);
     Ok(counts)
 }
 
@@ -94,13 +94,8 @@ const NEAR: usize = 1 << 10;
 const FEW: usize = 1 << 10;
 
 /// Adds `rows` rows of columns, each with the arity of its variable, to counts.
-pub(crate) fn tally(
-    columns: &[(&[State], usize)],
-    rows: usize,
-    weights: Option<&[u32]>,
-    counts: &mut [u64],
-) {
-    if weights.is_none() && counts.len() <= NEAR {
+pub(crate) fn tally(columns: &[(&[State], usize)], rows: usize, counts: &mut [u64]) {
+    if counts.len() <= NEAR {
         return tally_near(columns, rows, counts);
     }
     let mut cells = [0_u32; FEW];
@@ -112,14 +107,7 @@ pub(crate) fn tally(
                 *cell = *cell * arity as u32 + u32::from(state);
             }
         }
-        match weights {
-            None => cells.iter().for_each(|&cell| counts[cell as usize] += 1),
-            Some(weights) => {
-                for (&cell, &weight) in cells.iter().zip(&weights[start..]) {
-                    counts[cell as usize] += u64::from(weight);
-                }
-            }
-        }
+        cells.iter().for_each(|&cell| counts[cell as usize] += 1);
     }
 }
 
@@ -169,13 +157,5 @@ mod tests {
         let sets = [vec![VariableId(0), VariableId(1)], vec![VariableId(1)], vec![]];
         let counts = table.count(&sets).unwrap();
         assert_eq!(counts, [vec![0, 0, 1, 2, 0, 1], vec![2, 0, 2], vec![4]]);
-    }
-
-    #[test]
-    fn a_weighted_row_stands_for_several_trials() {
-        let variables = vec![Variable::of_words("a", ["x", "y"])];
-        let table = Table::weighted(variables, vec![vec![0, 1]], vec![3, 4]).unwrap();
-        assert_eq!(table.count(&[vec![VariableId(0)]]).unwrap(), [vec![3, 4]]);
-        assert_eq!(table.rows(), 7);
     }
 }

@@ -10,7 +10,6 @@ mod climb;
 mod constraint;
 mod blanket;
 
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::count::{CountError, Counter, Counts};
@@ -23,14 +22,13 @@ use crate::set::MOST_VARIABLES;
 use crate::variable::{Variable, VariableId};
 
 /// How a graph is learned.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
     /// The best graph where that can be proven in seconds, else a search over classes of graphs.
     Auto,
     /// The best graph: dynamic programming over sets of variables (Silander and Myllymäki 2006).
     Exact,
-    /// Greedy equivalence search (Chickering 2002), with arcs turned as well.
+    /// Greedy equivalence search (Chickering 2002).
     Greedy,
     /// Search over orders: best order score search (Andrews et al. 2023).
     Order,
@@ -48,20 +46,41 @@ pub enum Method {
     Mmhc,
 }
 
+impl Method {
+    /// All of them, in the order in which they are offered.
+    pub const ALL: [Self; 10] = [
+        Self::Auto,
+        Self::Exact,
+        Self::Greedy,
+        Self::Order,
+        Self::Hill,
+        Self::Tabu,
+        Self::Pc,
+        Self::GrowShrink,
+        Self::Iamb,
+        Self::Mmhc,
+    ];
+
+    /// What it is called on the command line and in files, and what it is in a few words.
+    pub const fn name(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Auto => ("auto", "The best graph up to 20 variables, else greedy"),
+            Self::Exact => ("exact", "The best graph, by dynamic programming"),
+            Self::Greedy => ("greedy", "Greedy equivalence search"),
+            Self::Order => ("order", "Best order score search"),
+            Self::Hill => ("hill", "Hill climbing"),
+            Self::Tabu => ("tabu", "Tabu search"),
+            Self::Pc => ("pc", "PC in its stable form"),
+            Self::GrowShrink => ("grow-shrink", "Markov blankets by growing and shrinking"),
+            Self::Iamb => ("iamb", "Markov blankets by incremental association"),
+            Self::Mmhc => ("mmhc", "Max-min hill climbing"),
+        }
+    }
+}
+
 impl std::fmt::Display for Method {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Auto => "auto",
-            Self::Exact => "exact",
-            Self::Greedy => "greedy",
-            Self::Order => "order",
-            Self::Hill => "hill",
-            Self::Tabu => "tabu",
-            Self::Pc => "pc",
-            Self::GrowShrink => "grow-shrink",
-            Self::Iamb => "iamb",
-            Self::Mmhc => "mmhc",
-        })
+        f.write_str(self.name().0)
     }
 }
 
@@ -109,6 +128,15 @@ pub struct Discovery {
     pub asked: usize,
     /// What a person should know: tests that contradicted each other, variables that never vary.
     pub notes: Vec<String>,
+}
+
+impl Discovery {
+    /// As many parents as a variable could have, where a graph of so many variables could have had more and the learner promises the
+    /// best.
+    pub fn narrowed(&self, variables: usize) -> Option<usize> {
+        let narrow = self.method == Method::Exact && self.max_parents + 1 < variables;
+        narrow.then_some(self.max_parents)
+    }
 }
 
 /// Why nothing was learned.

@@ -101,7 +101,7 @@ fn table(estimator: Estimator, id: VariableId, counts: &[u64], arity: usize) -> 
     let rows = counts.len() / arity;
     let mut table = Conditional {
         probabilities: Vec::with_capacity(counts.len()),
-        trials: Some(Vec::with_capacity(rows)),
+        counts: Some(counts.to_vec()),
         unknown: Vec::new(),
     };
     let uniform = 1.0 / arity as f64;
@@ -126,9 +126,6 @@ fn table(estimator: Estimator, id: VariableId, counts: &[u64], arity: usize) -> 
             let probability = prior.map_or(uniform, |prior| prior[state]);
             if known { weighted(weight, probability, count, total) } else { 0.0 }
         }));
-        if let Some(trials) = &mut table.trials {
-            trials.push(total);
-        }
     }
     table
 }
@@ -177,7 +174,7 @@ mod tests {
         assert_eq!(likelihood.row(effect, 0), Some(&[0.25, 0.75][..]));
         assert_eq!(likelihood.row(effect, 1), Some(&[1.0, 0.0][..]));
         assert_eq!(likelihood.row(effect, 2), None);
-        assert_eq!(likelihood.table(effect).trials, Some(vec![4, 1, 0]));
+        assert_eq!(likelihood.table(effect).counts, Some(vec![1, 3, 1, 0, 0, 0]));
         let bdeu = estimate(&table, &graph, Estimator::Bdeu(6.0)).unwrap();
         assert_eq!(bdeu.row(effect, 0), Some(&[2.0 / 6.0, 4.0 / 6.0][..]));
         assert_eq!(bdeu.row(effect, 2), Some(&[0.5, 0.5][..]));

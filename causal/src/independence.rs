@@ -3,15 +3,13 @@
 use std::cell::RefCell;
 
 use rustc_hash::FxHashMap;
-use serde::{Deserialize, Serialize};
 
 use crate::count::{CountError, Counter};
 use crate::set::Set;
 use crate::variable::VariableId;
 
 /// A test of independence.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Test {
     /// The likelihood ratio: twice the number of trials times the mutual information.
     G2,
@@ -19,6 +17,20 @@ pub enum Test {
     X2,
     /// The mutual information itself; its p-value is that of [`Test::G2`], its strength is in nats.
     MutualInformation,
+}
+
+impl Test {
+    /// All of them, in the order in which they are offered.
+    pub const ALL: [Self; 3] = [Self::G2, Self::X2, Self::MutualInformation];
+
+    /// What it is called on the command line, and what it is in a few words.
+    pub const fn name(self) -> (&'static str, &'static str) {
+        match self {
+            Self::G2 => ("g2", "The likelihood ratio"),
+            Self::X2 => ("x2", "Pearson's chi-square"),
+            Self::MutualInformation => ("mutual-information", "Mutual information"),
+        }
+    }
 }
 
 /// What a test says.

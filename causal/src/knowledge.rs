@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::set::Set;
-use crate::variable::{Role, Variable, VariableId};
+use crate::variable::{Role, Variable, VariableId, named, unknown};
 
 /// What is known of the causes among variables, by their names.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -28,13 +28,8 @@ pub struct Knowledge {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum KnowledgeError {
     /// A name that no variable has.
-    #[error("there is no variable `{name}`{}", .near.as_ref().map_or_else(String::new, |near| format!("; did you mean `{near}`?")))]
-    Unknown {
-        /// The name.
-        name: String,
-        /// A name like it.
-        near: Option<String>,
-    },
+    #[error("{0}")]
+    Unknown(String),
     /// A variable in two tiers.
     #[error("`{0}` is in two tiers")]
     TwoTiers(String),
@@ -136,12 +131,7 @@ impl Knowledge {
 
 /// The variable of a name.
 fn find(variables: &[Variable], name: &str) -> Result<VariableId, KnowledgeError> {
-    variables.iter().position(|one| one.name == name).map(|at| VariableId(at as u16)).ok_or_else(
-        || {
-            let near = lang::nearest(name, variables.iter().map(|one| one.name.as_str()));
-            KnowledgeError::Unknown { name: name.to_owned(), near: near.map(ToOwned::to_owned) }
-        },
-    )
+    named(variables, name).ok_or_else(|| KnowledgeError::Unknown(unknown(name, variables)))
 }
 
 impl Rules {

@@ -17,6 +17,7 @@
 //! - [`graph`]: which variables cause which;
 //! - [`set`]: variables as bits;
 //! - [`pattern`]: graphs that fit data equally well;
+//! - [`chance`](mod@chance): seeded numbers that no thread changes;
 //! - [`knowledge`]: what is known before any data;
 //! - [`score`]: how well a graph fits;
 //! - [`independence`]: what does not depend on what;
@@ -46,6 +47,7 @@ pub mod cluster;
 pub mod graph;
 pub mod set;
 pub mod pattern;
+pub mod chance;
 pub mod knowledge;
 pub mod score;
 pub mod independence;

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::graph::{Cycle, Dag};
 use crate::knowledge::Knowledge;
-use crate::variable::{State, Variable, VariableId};
+use crate::variable::{State, Variable, VariableId, named, unknown};
 
 /// How far a row of probabilities may be from one in sum: files round them.
 pub const ROUNDING: f64 = 1e-5;
@@ -29,8 +29,8 @@ pub struct Conditional {
     /// Row after row: a row for each combination of the states of the parents, which are in rising order and the last of which runs
     /// fastest; in it a probability for each state. Rows that are unknown hold zeros.
     pub probabilities: Vec<f64>,
-    /// How many trials each row comes from, where that is known.
-    pub trials: Option<Vec<u64>>,
+    /// How many trials have each state in each row, laid out like the probabilities, where that is known.
+    pub counts: Option<Vec<u64>>,
     /// The rows of which nothing is known, in rising order.
     pub unknown: Vec<u32>,
 }
@@ -207,9 +207,7 @@ impl Network {
 
     /// What to say of a name that no variable has.
     pub fn unknown(&self, name: &str) -> String {
-        let near = lang::nearest(name, self.variables.iter().map(|one| one.name.as_str()));
-        let help = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-        format!("the model has no variable `{name}`{help}")
+        unknown(name, &self.variables)
     }
 
     /// What to say of a value that is no state of a variable.
@@ -239,7 +237,7 @@ impl Network {
 
     /// The variable of a name.
     pub fn named(&self, name: &str) -> Option<VariableId> {
-        self.variables.iter().position(|one| one.name == name).map(|at| VariableId(at as u16))
+        named(&self.variables, name)
     }
 
     /// Which variables cause which.
@@ -296,6 +294,12 @@ impl Network {
         }
         let arity = self.variable(id).arity();
         Some(&table.probabilities[row * arity..(row + 1) * arity])
+    }
+
+    /// How many trials have each state in a row, where that is known.
+    pub fn counts(&self, id: VariableId, row: usize) -> Option<&[u64]> {
+        let arity = self.variable(id).arity();
+        self.table(id).counts.as_deref().map(|counts| &counts[row * arity..(row + 1) * arity])
     }
 
     /// A row in words: `xOff = [0.6, 1.2), dropOff = [2, 3)`.

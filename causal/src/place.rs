@@ -25,7 +25,6 @@ pub struct Policy {
 }
 
 /// Puts values into the states of variables.
-#[derive(Debug)]
 pub struct Placer<'a> {
     source: &'a dyn Source,
     variables: &'a [Variable],
@@ -48,12 +47,6 @@ pub struct Placed {
 enum Misfit {
     Missing,
     Outside(String),
-}
-
-impl std::fmt::Debug for dyn Source + '_ {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "Source({} columns, {} shards)", self.columns().len(), self.shards())
-    }
 }
 
 impl<'a> Placer<'a> {
@@ -160,8 +153,7 @@ fn outside(variable: &Variable, value: &str) -> String {
         States::Intervals(_) => format!("`{name}` is `{value}`, which is no number"),
         States::Series(_) => format!("`{name}`: {value}"),
         States::Categories(words) => {
-            let near = lang::nearest(value, words.iter().map(String::as_str));
-            let help = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+            let help = lang::did_you_mean(value, words.iter().map(String::as_str));
             format!("`{name}` is `{value}`, which is no state of it{help}")
         }
     }

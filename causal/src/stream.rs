@@ -47,7 +47,6 @@ pub fn table(
 }
 
 /// Counts the trials of a source, which is read anew for each batch of questions and never held.
-#[derive(Debug)]
 pub struct Stream<'a> {
     source: &'a dyn Source,
     variables: &'a [Variable],
@@ -152,7 +151,7 @@ impl Counter for Stream<'_> {
                         })
                         .collect();
                     let rows = placed.columns.first().map_or(0, Vec::len);
-                    tally(&columns, rows, None, counts);
+                    tally(&columns, rows, counts);
                 }
             })
             .map_err(|fault| CountError::Source(fault.to_string()))?;

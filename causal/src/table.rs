@@ -2,17 +2,13 @@
 
 use thiserror::Error;
 
-use crate::variable::{MOST_STATES, State, Variable, VariableId};
+use crate::variable::{MOST_STATES, State, Variable, VariableId, named};
 
 /// Trials as states: one column for each variable, one row for each trial.
-///
-/// A row may stand for several equal trials; then it has a weight.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     variables: Vec<Variable>,
     columns: Vec<Vec<State>>,
-    weights: Option<Vec<u32>>,
-    rows: u64,
 }
 
 /// Why columns make no table.
@@ -74,23 +70,7 @@ impl Table {
                 return Err(TableError::State { name: name(), row, state: column[row], arity });
             }
         }
-        Ok(Self { variables, columns, weights: None, rows: first as u64 })
-    }
-
-    /// The same, where each row stands for as many trials as its weight says.
-    ///
-    /// # Panics
-    /// If there is not one weight for each row.
-    pub fn weighted(
-        variables: Vec<Variable>,
-        columns: Vec<Vec<State>>,
-        weights: Vec<u32>,
-    ) -> Result<Self, TableError> {
-        let mut table = Self::new(variables, columns)?;
-        assert_eq!(table.len(), weights.len(), "each row has its weight");
-        table.rows = weights.iter().map(|&weight| u64::from(weight)).sum();
-        table.weights = Some(weights);
-        Ok(table)
+        Ok(Self { variables, columns })
     }
 
     /// The variables, in the order of the columns.
@@ -110,7 +90,7 @@ impl Table {
 
     /// The variable of a name.
     pub fn named(&self, name: &str) -> Option<VariableId> {
-        self.variables.iter().position(|one| one.name == name).map(|at| VariableId(at as u16))
+        named(&self.variables, name)
     }
 
     /// The states of a variable, row by row.
@@ -118,24 +98,14 @@ impl Table {
         &self.columns[id.index()]
     }
 
-    /// How many trials each row stands for; none where each stands for one.
-    pub fn weights(&self) -> Option<&[u32]> {
-        self.weights.as_deref()
-    }
-
-    /// How many rows there are, equal trials taken together where they have weights.
+    /// How many trials there are.
     pub fn len(&self) -> usize {
         self.columns.first().map_or(0, Vec::len)
     }
 
-    /// Whether there is no row.
+    /// Whether there is no trial.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
-    }
-
-    /// How many trials there are.
-    pub fn rows(&self) -> u64 {
-        self.rows
     }
 
     /// The rows with these numbers, in this order.
@@ -143,14 +113,7 @@ impl Table {
     pub fn select(&self, rows: &[u32]) -> Self {
         let pick = |column: &Vec<State>| rows.iter().map(|&row| column[row as usize]).collect();
         let columns = self.columns.iter().map(pick).collect();
-        let weights: Option<Vec<u32>> = self
-            .weights
-            .as_ref()
-            .map(|weights| rows.iter().map(|&row| weights[row as usize]).collect());
-        let total = weights.as_ref().map_or(rows.len() as u64, |weights| {
-            weights.iter().map(|&weight| u64::from(weight)).sum()
-        });
-        Self { variables: self.variables.clone(), columns, weights, rows: total }
+        Self { variables: self.variables.clone(), columns }
     }
 
     /// The columns of these variables, in this order.
@@ -159,8 +122,6 @@ impl Table {
         Self {
             variables: ids.iter().map(|id| self.variable(*id).clone()).collect(),
             columns: ids.iter().map(|id| self.column(*id).to_vec()).collect(),
-            weights: self.weights.clone(),
-            rows: self.rows,
         }
     }
 }

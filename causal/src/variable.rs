@@ -176,6 +176,17 @@ impl Variable {
     }
 }
 
+/// The variable of a name.
+pub fn named(variables: &[Variable], name: &str) -> Option<VariableId> {
+    variables.iter().position(|one| one.name == name).map(|at| VariableId(at as u16))
+}
+
+/// What to say of a name that none of the variables has.
+pub fn unknown(name: &str, variables: &[Variable]) -> String {
+    let help = lang::did_you_mean(name, variables.iter().map(|one| one.name.as_str()));
+    format!("there is no variable `{name}`{help}")
+}
+
 /// The square of the Euclidean distance of two series of one length (equation 2.3, without the root).
 pub fn squared_distance(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum()

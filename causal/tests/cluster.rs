@@ -44,8 +44,8 @@ fn holds(engine: &Engine) {
     let path = folder.path().join("trials.csv");
     let path = path.to_str().expect("the path is text");
     let cluster = Cluster::new(engine, path, table.variables()).expect("the trials are known");
-    assert_eq!(cluster.rows(), table.rows());
-    assert_eq!(cluster.dropped(), 2000 - table.rows());
+    assert_eq!(cluster.rows(), table.len() as u64);
+    assert_eq!(cluster.dropped(), 2000 - table.len() as u64);
     assert!(cluster.dropped() > 0, "some trials lie outside");
     let sets: Vec<Vec<VariableId>> = [&[0, 1, 2][..], &[2, 0], &[1], &[]]
         .map(|set| set.iter().map(|&id| VariableId(id)).collect())

@@ -361,7 +361,10 @@ fn a_network_as_a_person_reads_it() {
     insta::assert_snapshot!("network_dot", dot::write(&stacking()));
     let marginals: Vec<Vec<f64>> =
         stacking().ids().map(|id| posterior(&stacking(), id, &[]).unwrap()).collect();
-    insta::assert_snapshot!("network_svg", svg::draw(&stacking(), Some(&marginals)));
+    insta::assert_snapshot!(
+        "network_svg",
+        svg::draw(&stacking(), svg::Details { marginals: Some(&marginals), tables: true })
+    );
     assert_eq!(json::read(&json::write(&stacking())).unwrap(), stacking());
 }
 

@@ -1,5 +1,6 @@
 //! `caveat causal`: trials and models go in; models, answers and how good they are come out.
 
+mod complain;
 mod trials;
 mod model;
 mod discover;

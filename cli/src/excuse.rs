@@ -151,11 +151,8 @@ fn predicate(name: &str, option: &str, input: &Input) -> Result<PredicateId, Com
     let found = all.iter().position(|one| one.name.text.eq_ignore_ascii_case(name));
     let Some(number) = found else {
         let message = format!("`{option}` names a predicate that there is not: `{name}`");
-        let near = lang::nearest(name, all.iter().map(|one| one.name.text.as_str()));
-        return Err(match near {
-            Some(near) => Complaint::with_help(message, format!("did you mean `{near}`?")),
-            None => Complaint::new(message),
-        });
+        let known = all.iter().map(|one| one.name.text.as_str());
+        return Err(Complaint::misspelt(message, name, known));
     };
     if all[number].derived {
         let message = format!("`{name}` is derived by axioms and cannot be changed itself");

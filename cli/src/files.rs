@@ -24,6 +24,16 @@ impl Complaint {
     pub fn with_help(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self { message: message.into(), help: Some(help.into()) }
     }
+
+    /// Of a word that is none of those that are known, with the one that was probably meant.
+    pub fn misspelt<'k>(
+        message: impl Into<String>,
+        word: &str,
+        known: impl IntoIterator<Item = &'k str>,
+    ) -> Self {
+        let near = lang::nearest(word, known).map(|near| format!("did you mean `{near}`?"));
+        Self { message: message.into(), help: near }
+    }
 }
 
 impl fmt::Display for Complaint {

@@ -45,7 +45,7 @@ pub mod ide;
 
 pub use annotation::annotations;
 pub use diagnostic::explain;
-pub use near::nearest;
+pub use near::{did_you_mean, nearest};
 pub use reader::{
     Kind, detect, index_domain, index_problem, parse_domain, parse_problem, read_domain,
     read_problem, refusals,

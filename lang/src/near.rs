@@ -26,19 +26,30 @@ pub fn nearest<'s>(word: &str, candidates: impl IntoIterator<Item = &'s str>) ->
     best.map(|(_, candidate)| candidate)
 }
 
+/// How a message about `word` ends: with the candidate that is nearest to it, as `; did you mean `clean`?`, or with nothing.
+pub fn did_you_mean<'s>(word: &str, candidates: impl IntoIterator<Item = &'s str>) -> String {
+    nearest(word, candidates).map_or_else(String::new, |near| format!("; did you mean `{near}`?"))
+}
+
 fn digits(word: &str) -> impl Iterator<Item = u8> + '_ {
     word.bytes().filter(u8::is_ascii_digit)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::nearest;
+    use super::{did_you_mean, nearest};
 
     #[test]
     fn a_slip_of_a_letter_or_two() {
         for slip in ["claen", "clen", "cleean", "cleam", "CLEN", "cln"] {
             assert_eq!(nearest(slip, ["dirty", "clean", "in"]), Some("clean"), "{slip}");
         }
+    }
+
+    #[test]
+    fn a_message_ends_with_it_or_as_it_is() {
+        assert_eq!(did_you_mean("claen", ["clean"]), "; did you mean `clean`?");
+        assert_eq!(did_you_mean("claen", ["dirty"]), "");
     }
 
     #[test]

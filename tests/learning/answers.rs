@@ -2,11 +2,11 @@
 
 use cli::exit::Exit;
 
-use super::{Desk, keep};
+use super::{demo, keep};
 
 #[test]
 fn a_domain_as_a_person_reads_it() {
-    let desk = Desk::demo("kitchen");
+    let desk = demo("kitchen");
     let command = "caveat learn --problem shown.pddl --plan-file demo.plan demo.jsonl";
     let printed = desk.shown(Exit::Done, command);
     let files = format!(
@@ -22,7 +22,7 @@ fn a_domain_as_a_person_reads_it() {
 
 #[test]
 fn each_rule_writes_a_domain_of_which_nothing_is_to_be_said() {
-    let desk = Desk::demo("kitchen");
+    let desk = demo("kitchen");
     let text = |rule: &str| {
         desk.ends(Exit::Done, &format!("caveat learn --rule {rule} -o {rule}.pddl demo.jsonl"));
         desk.clean(&format!("{rule}.pddl"));
@@ -43,7 +43,7 @@ fn each_rule_writes_a_domain_of_which_nothing_is_to_be_said() {
 
 #[test]
 fn csv_says_the_same_as_json_lines() {
-    let desk = Desk::demo("cubes");
+    let desk = demo("cubes");
     desk.ends(Exit::Done, "caveat simulate demo cubes --csv -o demo.csv");
     let learn =
         |log: &str| desk.run(&format!("caveat learn {log}")).data.replace("demo.csv", "demo.jsonl");
@@ -54,7 +54,7 @@ fn csv_says_the_same_as_json_lines() {
 
 #[test]
 fn several_demonstrations_are_counted_together() {
-    let desk = Desk::demo("cubes");
+    let desk = demo("cubes");
     desk.ends(Exit::Done, "caveat simulate demo cubes --person 2 --seed 2 -o other.jsonl");
     let said = desk.ends(Exit::Done, "caveat learn demo.jsonl other.jsonl");
     assert!(
@@ -66,7 +66,7 @@ fn several_demonstrations_are_counted_together() {
 
 #[test]
 fn what_each_hand_does_and_when() {
-    let desk = Desk::demo("kitchen --task guided");
+    let desk = demo("kitchen --task guided");
     let command = "caveat learn --segments --segments-svg time.svg demo.jsonl";
     keep("a time line", command, &desk.shown(Exit::Done, command));
     assert!(desk.file("time.svg").starts_with("<svg"));
@@ -74,14 +74,14 @@ fn what_each_hand_does_and_when() {
 
 #[test]
 fn a_decision_tree_is_learned_from_annotated_frames() {
-    let desk = Desk::demo("kitchen --task guided");
+    let desk = demo("kitchen --task guided");
     let command = "caveat learn --truth demo.truth.jsonl demo.jsonl";
     keep("a decision tree", command, &desk.shown(Exit::Done, command));
 }
 
 #[test]
 fn hands_get_other_names_or_are_left_out() {
-    let desk = Desk::demo("kitchen --task guided");
+    let desk = demo("kitchen --task guided");
     let mapped = desk
         .ends(Exit::Done, "caveat learn --map right-hand=robot --problem shown.pddl demo.jsonl");
     assert!(mapped.contains("(:action open-drawer"), "{mapped}");
@@ -95,7 +95,7 @@ fn hands_get_other_names_or_are_left_out() {
 
 #[test]
 fn traces_are_written_and_learned_from() {
-    let desk = Desk::demo("kitchen");
+    let desk = demo("kitchen");
     desk.ends(Exit::Done, "caveat learn --trace demo.trace -o learned.pddl demo.jsonl");
     let names = |text: &str| -> Vec<String> {
         let actions = text.split("(:action ").skip(1);
@@ -119,7 +119,7 @@ fn traces_are_written_and_learned_from() {
 
 #[test]
 fn the_thresholds_of_observation_can_be_printed_and_given_back() {
-    let desk = Desk::demo("cubes --task stack-one");
+    let desk = demo("cubes --task stack-one");
     let config = desk.ends(Exit::Done, "caveat learn --print-config");
     desk.write("config.json", &config);
     let usual = desk.run("caveat learn demo.jsonl").data;

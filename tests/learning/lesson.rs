@@ -2,7 +2,8 @@
 
 use cli::exit::Exit;
 
-use super::{Desk, keep, shipped};
+use super::{demo, keep};
+use crate::desk::{Desk, shipped};
 
 /// The loop for one kitchen; gives back what was printed on the way.
 #[track_caller]
@@ -58,7 +59,7 @@ fn who_is_shown_how_a_chair_is_moved_can_open_the_drawer_behind_it() {
 
 #[test]
 fn what_was_learned_once_is_known_the_second_time() {
-    let desk = Desk::demo("kitchen --task guided");
+    let desk = demo("kitchen --task guided");
     let known = "domains/closed-drawer";
     let learn = |domain: &str, output: &str| {
         format!("caveat learn --extend {domain} --config {known}/words.json -o {output} demo.jsonl")
@@ -74,7 +75,7 @@ fn what_was_learned_once_is_known_the_second_time() {
 
 #[test]
 fn without_words_the_domain_has_none_for_what_was_seen() {
-    let desk = Desk::demo("kitchen --task guided");
+    let desk = demo("kitchen --task guided");
     let command =
         "caveat learn --extend domains/closed-drawer/domain.pddl -o taught.pddl demo.jsonl";
     keep("a domain without words", command, &desk.shown(Exit::Findings, command));

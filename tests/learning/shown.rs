@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use cli::exit::Exit;
 
-use super::{Desk, keep};
+use super::{demo, keep};
+use crate::desk::Desk;
 
 #[test]
 fn the_worlds_are_listed() {
@@ -52,7 +53,7 @@ fn a_plan_without_way_points_reaches_nothing_and_says_why() {
 
 #[test]
 fn the_same_person_shows_the_same_again_and_another_one_something_else() {
-    let desk = Desk::demo("cubes --person 3 --seed 4");
+    let desk = demo("cubes --person 3 --seed 4");
     desk.ends(Exit::Done, "caveat simulate demo cubes --person 3 --seed 4 -o again.jsonl");
     assert_eq!(desk.file("demo.jsonl"), desk.file("again.jsonl"));
     assert_eq!(desk.file("demo.truth.jsonl"), desk.file("again.truth.jsonl"));

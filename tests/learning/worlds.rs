@@ -2,12 +2,13 @@
 
 use cli::exit::Exit;
 
-use super::Desk;
+use super::demo;
+use crate::desk::Desk;
 
 /// Learns from a demonstration, plans for a goal, and carries the plan out; gives back what was printed in the end.
 #[track_caller]
 fn carried_out(world: &str, seed: u32, learn: &str, goal: Option<(&str, &str)>) -> (Desk, String) {
-    let desk = Desk::demo(&format!("{world} --seed {seed}"));
+    let desk = demo(&format!("{world} --seed {seed}"));
     let wanted = goal.map_or_else(String::new, |(_, condition)| format!("--goal '{condition}'"));
     desk.ends(
         Exit::Done,

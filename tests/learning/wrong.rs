@@ -5,11 +5,12 @@ use std::fmt::Write as _;
 use cli::exit::Exit;
 use serde_json::Value;
 
-use super::{Desk, keep};
+use super::{demo, keep};
+use crate::desk::Desk;
 
 /// A desk with the log of an opened drawer, and its lines.
 fn opened() -> (Desk, Vec<String>) {
-    let desk = Desk::demo("kitchen --task guided");
+    let desk = demo("kitchen --task guided");
     let lines = desk.file("demo.jsonl").lines().map(str::to_owned).collect();
     (desk, lines)
 }
@@ -87,7 +88,7 @@ fn bad_lines_are_named_and_left_out_when_asked() {
 
 #[test]
 fn a_demonstration_in_which_nothing_happens_teaches_nothing() {
-    let desk = Desk::demo("cubes --task nothing");
+    let desk = demo("cubes --task nothing");
     let command = "caveat learn demo.jsonl";
     keep("nothing happens", command, &desk.shown(Exit::Findings, command));
 }

@@ -12,7 +12,7 @@ use crate::place::{Placer, Policy, Unfit};
 use crate::recipe::Declared;
 use crate::sample::{MOST, Share};
 use crate::source::{Fault, Source};
-use crate::variable::{State, States, Variable};
+use crate::variable::{State, States, Variable, VariableId, named, unknown};
 
 /// The numbers of intervals that are tried.
 pub const TRIED: std::ops::RangeInclusive<usize> = 2..=9;
@@ -73,10 +73,8 @@ pub fn search(
     outcome: &str,
 ) -> Result<Search, Fault> {
     let wrong = |what: String| Fault::new("the variables", what);
-    let Some(target) = variables.iter().position(|one| one.name == outcome) else {
-        let near = lang::nearest(outcome, variables.iter().map(|one| one.name.as_str()));
-        let help = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-        return Err(wrong(format!("there is no variable `{outcome}`{help}")));
+    let Some(target) = named(variables, outcome).map(VariableId::index) else {
+        return Err(wrong(unknown(outcome, variables)));
     };
     if open[target] {
         return Err(wrong(format!(

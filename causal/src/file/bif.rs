@@ -344,8 +344,7 @@ fn probability(reader: &mut Reader, declared: &Declared) -> Result<Stated, Fault
     reader.sign('(')?;
     let find = |reader: &Reader, name: &str| {
         declared.ids.get(name).copied().ok_or_else(|| {
-            let near = lang::nearest(name, declared.ids.keys().copied());
-            let help = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+            let help = lang::did_you_mean(name, declared.ids.keys().copied());
             reader.fault(format!("there is no variable `{name}`{help}"))
         })
     };

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::Fault;
 use crate::graph::Dag;
 use crate::network::{About, Conditional, Goal, Network};
-use crate::variable::{Variable, VariableId};
+use crate::variable::{Variable, VariableId, named, unknown};
 
 /// The version of the format that is read and written.
 pub const VERSION: u32 = 1;
@@ -30,8 +30,9 @@ struct Table {
     parents: Vec<String>,
     /// A row for each combination of the states of the parents, the last of which runs fastest; null where nothing is known.
     probabilities: Vec<Option<Vec<f64>>>,
+    /// How many trials have each state, row by row.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    trials: Option<Vec<u64>>,
+    counts: Option<Vec<Vec<u64>>>,
 }
 
 /// Writes a network.
@@ -47,7 +48,9 @@ pub fn write(network: &Network) -> String {
                 probabilities: (0..rows)
                     .map(|row| network.row(id, row).map(<[f64]>::to_vec))
                     .collect(),
-                trials: network.table(id).trials.clone(),
+                counts: network.table(id).counts.as_ref().map(|counts| {
+                    counts.chunks_exact(network.variable(id).arity()).map(<[u64]>::to_vec).collect()
+                }),
             }
         })
         .collect();
@@ -154,12 +157,7 @@ pub fn read(text: &str) -> Result<Network, Fault> {
         )));
     }
     let id = |name: &str, of: &str| {
-        let place = file.variables.iter().position(|one| one.name == name);
-        place.map(|at| VariableId(at as u16)).ok_or_else(|| {
-            let found = lang::nearest(name, file.variables.iter().map(|one| one.name.as_str()));
-            let help = found.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-            near(of, format!("there is no variable `{name}`{help}"))
-        })
+        named(&file.variables, name).ok_or_else(|| near(of, unknown(name, &file.variables)))
     };
     let mut parents = vec![Vec::new(); file.variables.len()];
     let mut tables: Vec<Option<Conditional>> = vec![None; file.variables.len()];
@@ -175,8 +173,10 @@ pub fn read(text: &str) -> Result<Network, Fault> {
             return Err(near(&table.variable, format!("`{}` has a second table", table.variable)));
         }
         let arity = file.variables[child.index()].arity();
-        let mut conditional =
-            Conditional { trials: table.trials.clone(), ..Conditional::default() };
+        let mut conditional = Conditional {
+            counts: table.counts.as_ref().map(|rows| rows.concat()),
+            ..Conditional::default()
+        };
         for (row, probabilities) in table.probabilities.iter().enumerate() {
             match probabilities {
                 Some(probabilities) if probabilities.len() == arity => {
@@ -198,9 +198,13 @@ pub fn read(text: &str) -> Result<Network, Fault> {
             }
         }
         let rows = table.probabilities.len();
-        if table.trials.as_ref().is_some_and(|trials| trials.len() != rows) {
-            let what =
-                format!("`{}` has {rows} rows and another number of `trials`", table.variable);
+        if table.counts.as_ref().is_some_and(|counts| {
+            counts.len() != rows || counts.iter().any(|row| row.len() != arity)
+        }) {
+            let what = format!(
+                "the `counts` of `{}` are not {rows} rows of {arity}, as its probabilities are",
+                table.variable
+            );
             return Err(near(&table.variable, what));
         }
         parents[child.index()] = own;

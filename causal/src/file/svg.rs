@@ -4,6 +4,8 @@
 //! The layout is Sugiyama's: layers by the longest way from a root, places of arcs in the layers that they cross, and an order within
 //! each layer by the middle of what a place is joined to.
 
+mod tables;
+
 use super::dot::{is_undirected, strength};
 use crate::network::Network;
 use crate::variable::VariableId;
@@ -26,8 +28,18 @@ enum Place {
     Pass(VariableId, VariableId, usize),
 }
 
-/// Draws a network, with the probabilities of each variable's states where they are given, in the order of the variables.
-pub fn draw(network: &Network, marginals: Option<&[Vec<f64>]>) -> String {
+/// What is drawn beside variables and arcs.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Details<'a> {
+    /// The probabilities of each variable's states, in the order of the variables.
+    pub marginals: Option<&'a [Vec<f64>]>,
+    /// Below the graph, the table of each variable.
+    pub tables: bool,
+}
+
+/// Draws a network.
+pub fn draw(network: &Network, details: Details) -> String {
+    let marginals = details.marginals;
     let layers = layers(network);
     let height = |id: VariableId| {
         let rows =
@@ -55,10 +67,16 @@ pub fn draw(network: &Network, marginals: Option<&[Vec<f64>]>) -> String {
         }
         top += tallest + BETWEEN;
     }
-    let total = top - BETWEEN + MARGIN;
+    let mut total = top - BETWEEN + MARGIN;
+    let mut page = width;
+    let mut below = String::new();
+    if details.tables {
+        let (drawn, widest, end) = tables::draw(network, total);
+        (below, total, page) = (drawn, end, width.max(widest));
+    }
     let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{total:.0}\" \
-         viewBox=\"0 0 {width:.0} {total:.0}\" font-family=\"sans-serif\" font-size=\"11\">\n\
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{page:.0}\" height=\"{total:.0}\" \
+         viewBox=\"0 0 {page:.0} {total:.0}\" font-family=\"sans-serif\" font-size=\"11\">\n\
          <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n\
          <defs><marker id=\"tip\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"9\" markerHeight=\"9\" \
          markerUnits=\"userSpaceOnUse\" orient=\"auto\"><path d=\"M0 0L10 5L0 10z\" fill=\"#456\"/></marker></defs>\n"
@@ -76,6 +94,7 @@ pub fn draw(network: &Network, marginals: Option<&[Vec<f64>]>) -> String {
             ));
         }
     }
+    svg.push_str(&below);
     svg.push_str("</svg>\n");
     svg
 }

@@ -190,8 +190,7 @@ fn definition(
     let find = |(name, at): (&str, usize)| {
         let place = names.iter().position(|one| one == name).map(|at| VariableId(at as u16));
         place.ok_or_else(|| {
-            let near = lang::nearest(name, names.iter().map(String::as_str));
-            let help = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+            let help = lang::did_you_mean(name, names.iter().map(String::as_str));
             Fault::at(text, at, format!("there is no variable `{name}`{help}"))
         })
     };

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::InferError;
+use crate::chance::chance;
 use crate::network::Network;
 use crate::table::Table;
 use crate::variable::{State, VariableId};
@@ -79,7 +80,7 @@ impl<'a> Sampler<'a> {
 
     /// Fills columns, one for each variable, with the trials of a block.
     pub fn fill(&self, seed: u64, block: u64, columns: &mut [Vec<State>]) {
-        let mut random = fastrand::Rng::with_seed(mixed(seed, block));
+        let mut random = chance(seed, block);
         for &id in &self.order {
             let mut column = std::mem::take(&mut columns[id.index()]);
             let arity = self.network.variable(id).arity();
@@ -97,16 +98,6 @@ impl<'a> Sampler<'a> {
     }
 }
 
-/// The seed of a block. Seeds that differ in one bit would give like numbers at first: both are mixed by a generator of their own.
-fn mixed(seed: u64, block: u64) -> u64 {
-    fastrand::Rng::with_seed(seed).u64(..) ^ fastrand::Rng::with_seed(block).u64(..)
-}
-
-/// Chance for what comes after trials were drawn under a seed, such as values within their states.
-pub fn generator(seed: u64) -> fastrand::Rng {
-    fastrand::Rng::with_seed(mixed(seed, u64::MAX))
-}
-
 /// The logarithm of the probability of the trials of a table whose columns are the variables of the network, in its order. Minus
 /// infinity where the network holds one impossible.
 pub fn log_likelihood(network: &Network, table: &Table) -> Result<f64, InferError> {
@@ -121,7 +112,6 @@ pub fn log_likelihood(network: &Network, table: &Table) -> Result<f64, InferErro
     let mut total = 0.0;
     let mut states = Vec::new();
     for row in 0..table.len() {
-        let weight = table.weights().map_or(1.0, |weights| f64::from(weights[row]));
         for id in network.ids() {
             states.clear();
             states.extend(
@@ -132,7 +122,7 @@ pub fn log_likelihood(network: &Network, table: &Table) -> Result<f64, InferErro
                 let variable = network.variable(id).name.clone();
                 return Err(InferError::Unknown { variable, row: network.row_name(id, at) });
             };
-            total += weight * probabilities[usize::from(table.column(id)[row])].ln();
+            total += probabilities[usize::from(table.column(id)[row])].ln();
         }
     }
     Ok(total)

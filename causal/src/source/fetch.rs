@@ -94,8 +94,7 @@ impl Fetch {
         moments.sort_unstable();
         if moments.is_empty() {
             let names = names(source);
-            let help = lang::nearest(column, names.iter().map(String::as_str))
-                .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+            let help = lang::did_you_mean(column, names.iter().map(String::as_str));
             let whose =
                 if column == variable { String::new() } else { format!(" of `{variable}`") };
             return Err(Fault::new(

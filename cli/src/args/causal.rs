@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use ::causal::{discover, independence};
+use clap::builder::PossibleValue;
 use clap::{Args, Subcommand, ValueEnum};
 
 /// `caveat causal`.
@@ -10,14 +12,16 @@ use clap::{Args, Subcommand, ValueEnum};
     arg_required_else_help = true,
     after_help = "\
 Examples:
-  caveat causal discover domains/one-cube/trials.csv --recipe domains/one-cube/recipe.json -o cube.cbn.json
+  caveat causal discover domains/one-cube/trials.csv \\
+    --recipe domains/one-cube/recipe.json -o cube.cbn.json
       which variables cause which, and how probable success is
   caveat causal query cube.cbn.json onTop --do xOff=2.1
       what happens where a variable is set
-  caveat causal evaluate domains/one-cube/trials.csv --recipe domains/one-cube/recipe.json --goal onTop=1
+  caveat causal evaluate domains/one-cube/trials.csv \\
+    --recipe domains/one-cube/recipe.json --goal onTop=1
       how well success is predicted in trials that were not learned from
 
-Exit codes: 0 done, 1 there is something to look at, 2 could not run."
+Exit codes: 0 done, 2 could not run."
 )]
 pub struct Causal {
     /// What to do.
@@ -129,41 +133,55 @@ pub struct Engine {
 }
 
 /// Who learns a graph.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
-    /// The best graph up to 20 variables, else greedy.
-    Auto,
-    /// The best graph.
-    Exact,
-    /// Greedy equivalence search.
-    Greedy,
-    /// Best order score search.
-    Order,
-    /// Hill climbing.
-    Hill,
-    /// Tabu search.
-    Tabu,
-    /// PC.
-    Pc,
-    /// Grow-Shrink.
-    GrowShrink,
-    /// Incremental association Markov blankets.
-    Iamb,
-    /// Max-min hill climbing.
-    Mmhc,
-    /// A linear graph of the quantities themselves (NOTEARS).
+    /// A learner of graphs over states.
+    Of(discover::Method),
+    /// The learner of linear graphs over the quantities themselves.
     Notears,
 }
 
+impl ValueEnum for Method {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [Method; discover::Method::ALL.len() + 1] = {
+            let mut all = [Method::Notears; discover::Method::ALL.len() + 1];
+            let mut at = 0;
+            while at < discover::Method::ALL.len() {
+                all[at] = Method::Of(discover::Method::ALL[at]);
+                at += 1;
+            }
+            all
+        };
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let (name, about) = match self {
+            Self::Of(method) => method.name(),
+            Self::Notears => ("notears", "A linear graph of the quantities themselves (NOTEARS)"),
+        };
+        Some(PossibleValue::new(name).help(about))
+    }
+}
+
 /// What tests independence.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Test {
-    /// The likelihood ratio.
-    G2,
-    /// Pearson's chi-square.
-    X2,
-    /// Mutual information.
-    MutualInformation,
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Test(pub independence::Test);
+
+impl ValueEnum for Test {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [Test; 3] = [
+            Test(independence::Test::ALL[0]),
+            Test(independence::Test::ALL[1]),
+            Test(independence::Test::ALL[2]),
+        ];
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let (name, about) = self.0.name();
+        Some(PossibleValue::new(name).help(about))
+    }
 }
 
 /// How an answer looks.
@@ -179,11 +197,13 @@ pub enum Format {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  caveat causal discover domains/one-cube/trials.csv --set xOff,yOff,dropOff --goal onTop=1 -o cube.cbn.json
+  caveat causal discover domains/one-cube/trials.csv --set xOff,yOff,dropOff \\
+    --goal onTop=1 -o cube.cbn.json
       what was set has no causes
   caveat causal discover domains/one-cube/trials.csv --bootstrap 100 --svg cube.svg
       how sure each arc is, and a picture
-  caveat causal discover domains/one-cube/trials.csv --method pc --cuts xOff=search --goal onTop=1
+  caveat causal discover domains/one-cube/trials.csv --method pc --cuts xOff=search \\
+    --goal onTop=1
       by tests of independence, with as many intervals as predict success best")]
 pub struct Discover {
     /// The trials.
@@ -226,11 +246,15 @@ pub struct Discover {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  caveat causal fit domains/one-cube/trials.csv --arcs xOff:onTop,yOff:onTop,dropOff:onTop -o cube.cbn.json
+  caveat causal fit domains/one-cube/trials.csv \\
+    --arcs xOff:onTop,yOff:onTop,dropOff:onTop -o cube.cbn.json
       a graph by hand
-  caveat causal fit domains/one-cube/trials.csv --model domains/one-cube/cube.cbn.json -o again.cbn.json
+  caveat causal fit domains/one-cube/trials.csv \\
+    --model domains/one-cube/cube.cbn.json -o again.cbn.json
       the graph and the states of a model, with the probabilities of other trials
-  caveat causal fit domains/one-cube/trials.csv --model domains/one-cube/cube.cbn.json --prior domains/one-cube/cube.cbn.json --weight 50 -o both.cbn.json
+  caveat causal fit domains/one-cube/trials.csv \\
+    --model domains/one-cube/cube.cbn.json --prior domains/one-cube/cube.cbn.json \\
+    --weight 50 -o both.cbn.json
       a model as prior knowledge, worth 50 trials in each row")]
 pub struct Fit {
     /// The trials.
@@ -271,7 +295,7 @@ Examples:
       the variables, their states and their causes
   caveat causal show domains/one-cube/cube.cbn.json --table onTop
       the probabilities of a variable, row by row
-  caveat causal show domains/one-cube/cube.cbn.json --svg cube.svg -o cube.bif
+  caveat causal show domains/one-cube/cube.cbn.json --svg cube.svg --tables -o cube.bif
       a picture, and the model for other tools")]
 pub struct Show {
     /// The model: JSON, BIF or XMLBIF.
@@ -286,13 +310,17 @@ pub struct Show {
     /// Draw the model, with the probabilities of all states.
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
+    /// Draw the tables of the variables, too, below the graph.
+    #[arg(long, requires = "svg")]
+    pub tables: bool,
 }
 
 /// `caveat causal query`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  caveat causal query domains/one-cube/cube.cbn.json onTop --given xOff=0.2 --given dropOff=1
+  caveat causal query domains/one-cube/cube.cbn.json onTop --given xOff=0.2 \\
+    --given dropOff=1
       how probable is success where this is seen
   caveat causal query domains/one-cube/cube.cbn.json onTop --do xOff=2.1
       and where a variable is set
@@ -332,11 +360,14 @@ pub struct Query {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  caveat causal evaluate domains/one-cube/trials.csv --recipe domains/one-cube/recipe.json --goal onTop=1
+  caveat causal evaluate domains/one-cube/trials.csv \\
+    --recipe domains/one-cube/recipe.json --goal onTop=1
       learn from nine tenths, predict the last, ten times
-  caveat causal evaluate domains/one-cube/trials.csv --goal onTop=1 --arcs xOff:onTop,dropOff:onTop --forest
+  caveat causal evaluate domains/one-cube/trials.csv --goal onTop=1 \\
+    --arcs xOff:onTop,dropOff:onTop --forest
       a graph by hand, and a random forest beside it
-  caveat causal evaluate domains/one-cube/trials.csv --goal onTop=1 --group colorUp --set xOff,yOff,dropOff
+  caveat causal evaluate domains/one-cube/trials.csv --goal onTop=1 --group colorUp \\
+    --set xOff,yOff,dropOff
       leave out one group after the other")]
 pub struct Evaluate {
     /// The trials.

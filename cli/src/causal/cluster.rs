@@ -17,15 +17,14 @@ pub fn counted<T>(
     terminal: &mut Terminal,
     work: impl FnOnce(&dyn Counter) -> Result<T, Complaint>,
 ) -> Result<Option<T>, Complaint> {
-    let complain = |error: ::causal::count::CountError| Complaint::new(error.to_string());
     #[cfg(feature = "ballista")]
     let scheduler = engine.scheduler.as_deref();
     #[cfg(not(feature = "ballista"))]
     let scheduler: Option<&str> = None;
     let engine = match scheduler {
         #[cfg(feature = "ballista")]
-        Some(url) => Engine::scheduler(url).map_err(complain)?,
-        _ if engine.sql => Engine::embedded().map_err(complain)?,
+        Some(url) => Engine::scheduler(url)?,
+        _ if engine.sql => Engine::embedded()?,
         _ => return Ok(None),
     };
     let [path] = arguments.files.as_slice() else {
@@ -34,7 +33,7 @@ pub fn counted<T>(
             "a folder of Parquet is named with `/` at its end",
         ));
     };
-    let cluster = Cluster::new(&engine, &files::name(path), variables).map_err(complain)?;
+    let cluster = Cluster::new(&engine, &files::name(path), variables)?;
     if cluster.dropped() > 0 && trials::policy(arguments) != trials::dropping() {
         let message = format!("{} trials have no state for some variable", cluster.dropped());
         return Err(Complaint::with_help(

@@ -5,17 +5,15 @@ use ::causal::count::Counter;
 use ::causal::discover::{Config, Discovery, discover};
 use ::causal::estimate::estimate;
 use ::causal::file::json;
-use ::causal::independence;
 use ::causal::knowledge::Knowledge;
 use ::causal::network::{Goal, Network};
 use ::causal::pattern::question;
 use ::causal::score::Score;
 use ::causal::stream::{self, Stream};
-use ::causal::table::Table;
-use ::causal::variable::VariableId;
+use ::causal::variable::{State, VariableId};
 
 use super::{linear, model, trials};
-use crate::args::causal::{Discover, Format, Learner, Method, Test};
+use crate::args::causal::{Discover, Format, Learner, Method};
 use crate::exit::Exit;
 use crate::files::{self, Complaint};
 use crate::terminal::Terminal;
@@ -37,12 +35,9 @@ pub fn run(arguments: &Discover, terminal: &mut Terminal) -> Result<Exit, Compla
     let variables = trials::states(&arguments.trials, &declared, &*source, terminal)?;
     let knowledge = trials::knowledge(&arguments.known)?.with_roles(&variables);
     let policy = trials::policy(&arguments.trials);
-    let goal = trials::goal(&arguments.trials)?;
     let learn = |counter: &dyn Counter| -> Result<(Discovery, Network), Complaint> {
-        let found = discover(counter, &knowledge, &config)
-            .map_err(|error| Complaint::new(error.to_string()))?;
-        let network = estimate(counter, &found.graph, estimator)
-            .map_err(|error| Complaint::new(error.to_string()))?;
+        let found = discover(counter, &knowledge, &config)?;
+        let network = estimate(counter, &found.graph, estimator)?;
         Ok((found, network))
     };
     #[cfg(feature = "datafusion")]
@@ -53,36 +48,43 @@ pub fn run(arguments: &Discover, terminal: &mut Terminal) -> Result<Exit, Compla
     let (found, mut network, table) = if let Some((found, network)) = elsewhere {
         (found, network, None)
     } else if arguments.stream {
-        let stream =
-            Stream::new(&*source, &variables, policy).map_err(|fault| trials::complain(&fault))?;
+        let stream = Stream::new(&*source, &variables, policy)?;
         trials::tell_dropped(stream.dropped(), terminal);
         let (found, network) = learn(&stream)?;
         terminal.say(format_args!("the trials were read {} times", stream.readings()));
         (found, network, None)
     } else {
-        let (table, dropped) = stream::table(&*source, &variables, policy)
-            .map_err(|fault| trials::complain(&fault))?;
+        let (table, dropped) = stream::table(&*source, &variables, policy)?;
         trials::tell_dropped(dropped, terminal);
         let (found, network) = learn(&table)?;
         (found, network, Some(table))
     };
     describe(&mut network, &found, &knowledge, arguments);
     if let (Some(samples), Some(table)) = (arguments.bootstrap, &table) {
-        network.about.strengths = strengths(table, &knowledge, &config, samples, arguments.seed)
-            .map_err(|error| Complaint::new(error.to_string()))?;
+        network.about.strengths = strengths(table, &knowledge, &config, samples, arguments.seed)?;
     }
-    if let Some(goal) = goal {
-        network = with_goal(network, goal, table.as_ref())?;
+    deliver(network, arguments, terminal, |network, terminal| tell(network, &found, terminal))
+}
+
+/// Gives a learned network its goal, writes and draws it where that was asked for, and tells it.
+pub fn deliver(
+    mut network: Network,
+    arguments: &Discover,
+    terminal: &mut Terminal,
+    tell: impl FnOnce(&Network, &mut Terminal),
+) -> Result<Exit, Complaint> {
+    if let Some(goal) = trials::goal(&arguments.trials)? {
+        network = with_goal(network, goal)?;
     }
     if let Some(path) = &arguments.output {
         model::write(&network, path)?;
     }
     if let Some(path) = &arguments.svg {
-        model::draw(&network, path)?;
+        model::draw(&network, false, path)?;
     }
     match arguments.output_format {
         Format::Json => terminal.data(json::write(&network)),
-        Format::Full => tell(&network, &found, terminal),
+        Format::Full => tell(&network, terminal),
     }
     Ok(Exit::Done)
 }
@@ -102,23 +104,24 @@ fn describe(network: &mut Network, found: &Discovery, knowledge: &Knowledge, arg
 }
 
 /// Says what success is; an outcome that never or always succeeds is no goal to learn for.
-pub fn with_goal(
-    network: Network,
-    goal: Goal,
-    table: Option<&Table>,
-) -> Result<Network, Complaint> {
-    let network = network.with_goal(goal).map_err(|error| Complaint::new(error.to_string()))?;
-    let (Some(goal), Some(table)) = (&network.goal, table) else { return Ok(network) };
-    let id = network.named(&goal.variable).expect("the goal was found");
-    let state = network.variable(id).state_of_word(&goal.state).expect("its state was found");
-    if table.column(id).iter().all(|&one| one != state) {
+pub fn with_goal(network: Network, goal: Goal) -> Result<Network, Complaint> {
+    let id = model::find(&network, &goal.variable)?;
+    let variable = network.variable(id);
+    let state = variable.state_of_word(&goal.state);
+    let counts = network.table(id).counts.as_deref().unwrap_or_default();
+    let seen = |state: State| {
+        counts.is_empty()
+            || counts.chunks_exact(variable.arity()).any(|row| row[usize::from(state)] > 0)
+    };
+    if !state.is_some_and(seen) {
         let message = format!("`{}` is never {} in these trials", goal.variable, goal.state);
-        return Err(Complaint::with_help(
-            message,
-            "without a success nothing can be learned of how to succeed",
-        ));
+        let states = variable.labels().join(", ");
+        let help = format!(
+            "its states are {states}; without a success nothing can be learned of how to succeed"
+        );
+        return Err(Complaint::with_help(message, help));
     }
-    Ok(network)
+    Ok(network.with_goal(goal)?)
 }
 
 fn tell(network: &Network, found: &Discovery, terminal: &mut Terminal) {
@@ -130,6 +133,11 @@ fn tell(network: &Network, found: &Discovery, terminal: &mut Terminal) {
         network.about.method.as_deref().unwrap_or("hand"),
         found.score
     ));
+    if let Some(most) = found.narrowed(network.variables().len()) {
+        terminal.line(format_args!(
+            "  best among graphs in which a variable has at most {most} causes"
+        ));
+    }
     let strength = |from: &str, to: &str| {
         let same = |one: &&::causal::network::Strength| {
             (one.from == from && one.to == to) || (one.from == to && one.to == from)
@@ -166,7 +174,6 @@ fn tell(network: &Network, found: &Discovery, terminal: &mut Terminal) {
 
 /// How to learn, from the command line.
 pub fn config(learner: &Learner) -> Result<Config, Complaint> {
-    use ::causal::discover::Method as Learned;
     let score = match learner.score.split_once(':') {
         None if learner.score == "bic" => Score::Bic,
         None if learner.score == "aic" => Score::Aic,
@@ -184,29 +191,14 @@ pub fn config(learner: &Learner) -> Result<Config, Complaint> {
             ));
         }
     };
+    let Method::Of(method) = learner.method else {
+        let message = "`notears` learns from quantities, not from states";
+        return Err(Complaint::with_help(message, "`caveat causal discover` takes it"));
+    };
     Ok(Config {
-        method: match learner.method {
-            Method::Auto => Learned::Auto,
-            Method::Exact => Learned::Exact,
-            Method::Greedy => Learned::Greedy,
-            Method::Order => Learned::Order,
-            Method::Hill => Learned::Hill,
-            Method::Tabu => Learned::Tabu,
-            Method::Pc => Learned::Pc,
-            Method::GrowShrink => Learned::GrowShrink,
-            Method::Iamb => Learned::Iamb,
-            Method::Mmhc => Learned::Mmhc,
-            Method::Notears => {
-                let message = "`notears` learns from quantities, not from states";
-                return Err(Complaint::with_help(message, "`caveat causal discover` takes it"));
-            }
-        },
+        method,
         score,
-        test: match learner.test {
-            Test::G2 => independence::Test::G2,
-            Test::X2 => independence::Test::X2,
-            Test::MutualInformation => independence::Test::MutualInformation,
-        },
+        test: learner.test.0,
         alpha: learner.alpha,
         max_parents: learner.max_parents,
     })

@@ -29,8 +29,7 @@ pub fn run(arguments: &Evaluate, terminal: &mut Terminal) -> Result<Exit, Compla
     let source = trials::open(&arguments.trials)?;
     let declared = trials::declared(&arguments.trials, Some(&arguments.known), &*source)?;
     let variables = trials::states(&arguments.trials, &declared, &*source, terminal)?;
-    let (all, dropped) = stream::table(&*source, &variables, trials::policy(&arguments.trials))
-        .map_err(|fault| trials::complain(&fault))?;
+    let (all, dropped) = stream::table(&*source, &variables, trials::policy(&arguments.trials))?;
     trials::tell_dropped(dropped, terminal);
     let (table, groups) = part(all, arguments.group.as_deref())?;
     let knowledge = trials::knowledge(&arguments.known)?.with_roles(table.variables());
@@ -39,8 +38,7 @@ pub fn run(arguments: &Evaluate, terminal: &mut Terminal) -> Result<Exit, Compla
         Some(groups) => Folds::Groups(groups),
         None => Folds::Random(arguments.folds, arguments.seed),
     };
-    let wrong = |error: ::causal::evaluate::EvaluateError| Complaint::new(error.to_string());
-    let fold_of = folds(&table, parted).map_err(wrong)?;
+    let fold_of = folds(&table, parted)?;
     let by_hand: Option<Dag> = if arguments.arcs.is_empty() {
         None
     } else {
@@ -52,15 +50,15 @@ pub fn run(arguments: &Evaluate, terminal: &mut Terminal) -> Result<Exit, Compla
             .map(|found| found.graph)
             .map_err(|error| error.to_string()),
     };
-    let ours = network(&table, outcome, &fold_of, &learn, estimator).map_err(wrong)?;
+    let ours = network(&table, outcome, &fold_of, &learn, estimator)?;
     let mut rows = vec![("model", ours.clone())];
     if arguments.forest {
         rows.push((
             "random forest",
-            forest(&table, outcome, &fold_of, arguments.seed).map_err(wrong)?.predictions,
+            forest(&table, outcome, &fold_of, arguments.seed)?.predictions,
         ));
     }
-    rows.push(("majority", majority(&table, outcome, &fold_of).map_err(wrong)?));
+    rows.push(("majority", majority(&table, outcome, &fold_of)?));
     let count = fold_of.iter().max().map_or(0, |last| last + 1);
     match arguments.output_format {
         Format::Full => tell(&rows, count, table.len(), terminal),
@@ -79,7 +77,9 @@ pub fn run(arguments: &Evaluate, terminal: &mut Terminal) -> Result<Exit, Compla
 fn part(table: Table, group: Option<&str>) -> Result<(Table, Option<Vec<u32>>), Complaint> {
     let Some(name) = group else { return Ok((table, None)) };
     let Some(id) = table.named(name) else {
-        return Err(Complaint::new(format!("there is no column `{name}` to group by")));
+        let message = format!("there is no column `{name}` to group by");
+        let names = table.variables().iter().map(|one| one.name.as_str());
+        return Err(Complaint::misspelt(message, name, names));
     };
     let groups = table.column(id).iter().map(|&state| u32::from(state)).collect();
     let others: Vec<VariableId> = table.ids().filter(|&other| other != id).collect();
@@ -88,12 +88,8 @@ fn part(table: Table, group: Option<&str>) -> Result<(Table, Option<Vec<u32>>), 
 
 fn outcome(table: &Table, name: &str, state: &str) -> Result<Outcome, Complaint> {
     let Some(variable) = table.named(name) else {
-        let near = lang::nearest(name, table.variables().iter().map(|one| one.name.as_str()));
-        let message = format!("there is no variable `{name}`");
-        return Err(match near {
-            Some(near) => Complaint::with_help(message, format!("did you mean `{near}`?")),
-            None => Complaint::new(message),
-        });
+        let names = table.variables().iter().map(|one| one.name.as_str());
+        return Err(trials::no_variable(name, names));
     };
     let Some(success) = table.variable(variable).state_of_word(state) else {
         let states = table.variable(variable).labels().join(", ");

@@ -31,34 +31,32 @@ pub fn run(arguments: &Fit, terminal: &mut Terminal) -> Result<Exit, Complaint> 
         _ => model::estimator(&arguments.estimate)?,
     };
     let policy = trials::policy(&arguments.trials);
-    let fit = |counter: &dyn Counter| {
-        estimate(counter, &graph, estimator).map_err(|error| Complaint::new(error.to_string()))
+    let fit = |counter: &dyn Counter| -> Result<Network, Complaint> {
+        Ok(estimate(counter, &graph, estimator)?)
     };
     #[cfg(feature = "datafusion")]
     let elsewhere =
         super::cluster::counted(&arguments.engine, &arguments.trials, &variables, terminal, fit)?;
     #[cfg(not(feature = "datafusion"))]
     let elsewhere: Option<Network> = None;
-    let (network, table): (Network, _) = if let Some(network) = elsewhere {
-        (network, None)
+    let network = if let Some(network) = elsewhere {
+        network
     } else if arguments.stream {
         let source = trials::open(&arguments.trials)?;
-        let stream = Stream::unread(&*source, &variables, policy)
-            .map_err(|fault| trials::complain(&fault))?;
+        let stream = Stream::unread(&*source, &variables, policy)?;
         let network = fit(&stream)?;
         trials::tell_dropped(stream.dropped(), terminal);
-        (network, None)
+        network
     } else {
         let source = trials::open(&arguments.trials)?;
-        let (table, dropped) = stream::table(&*source, &variables, policy)
-            .map_err(|fault| trials::complain(&fault))?;
+        let (table, dropped) = stream::table(&*source, &variables, policy)?;
         trials::tell_dropped(dropped, terminal);
-        (fit(&table)?, Some(table))
+        fit(&table)?
     };
     let goal = trials::goal(&arguments.trials)?
         .or_else(|| given.as_ref().and_then(|given| given.goal.clone()));
     let mut network = match goal {
-        Some(goal) => discover::with_goal(network, goal, table.as_ref())?,
+        Some(goal) => discover::with_goal(network, goal)?,
         None => network,
     };
     network.about.files = arguments.trials.files.iter().map(|path| files::name(path)).collect();
@@ -77,8 +75,10 @@ pub fn run(arguments: &Fit, terminal: &mut Terminal) -> Result<Exit, Complaint> 
     model::write(&network, &arguments.output)?;
     let unseen: usize = network
         .ids()
-        .filter_map(|id| network.table(id).trials.as_ref())
-        .map(|trials| trials.iter().filter(|&&count| count == 0).count())
+        .filter_map(|id| Some((network.table(id).counts.as_ref()?, network.variable(id).arity())))
+        .map(|(counts, arity)| {
+            counts.chunks_exact(arity).filter(|row| row.iter().all(|&count| count == 0)).count()
+        })
         .sum();
     let rows: usize = network.ids().filter_map(|id| network.rows(id)).sum();
     terminal.line(format_args!(

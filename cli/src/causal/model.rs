@@ -7,9 +7,9 @@ use ::causal::file::{bif, dot, json, svg, xmlbif};
 use ::causal::graph::Dag;
 use ::causal::infer::junction::JunctionTree;
 use ::causal::network::Network;
-use ::causal::variable::{State, Variable, VariableId};
+use ::causal::variable::{State, Variable, VariableId, named};
 
-use super::trials::pair;
+use super::trials::{no_variable, pair};
 use crate::files::{self, Complaint};
 
 /// The formats of models, by what a file is called.
@@ -68,18 +68,21 @@ pub fn write(network: &Network, path: &Path) -> Result<(), Complaint> {
     files::write(path, text.as_bytes())
 }
 
-/// Draws a model, with the probabilities of all states where they are known.
-pub fn draw(network: &Network, path: &Path) -> Result<(), Complaint> {
+/// Draws a model with the probabilities of all states where they are known, and below it the tables where they are asked for.
+pub fn draw(network: &Network, tables: bool, path: &Path) -> Result<(), Complaint> {
     let marginals: Option<Vec<Vec<f64>>> = JunctionTree::new(network).ok().and_then(|tree| {
         let calibrated = tree.calibrate(&[]).ok()?;
         network.ids().map(|id| calibrated.posterior(id)).collect()
     });
-    files::write(path, svg::draw(network, marginals.as_deref()).as_bytes())
+    let details = svg::Details { marginals: marginals.as_deref(), tables };
+    files::write(path, svg::draw(network, details).as_bytes())
 }
 
 /// The variable of a name.
 pub fn find(network: &Network, name: &str) -> Result<VariableId, Complaint> {
-    network.named(name).ok_or_else(|| Complaint::new(network.unknown(name)))
+    network
+        .named(name)
+        .ok_or_else(|| no_variable(name, network.variables().iter().map(|one| one.name.as_str())))
 }
 
 /// A variable and its state, as NAME=VALUE says them.
@@ -103,17 +106,8 @@ pub fn assignment(network: &Network, text: &str) -> Result<(VariableId, State), 
 /// The graph of arcs by hand.
 pub fn graph(variables: &[Variable], arcs: &[String]) -> Result<Dag, Complaint> {
     let find = |name: &str| {
-        variables
-            .iter()
-            .position(|one| one.name == name)
-            .map(|at| VariableId(at as u16))
-            .ok_or_else(|| {
-                let message = format!("there is no variable `{name}`");
-                match lang::nearest(name, variables.iter().map(|one| one.name.as_str())) {
-                    Some(near) => Complaint::with_help(message, format!("did you mean `{near}`?")),
-                    None => Complaint::new(message),
-                }
-            })
+        named(variables, name)
+            .ok_or_else(|| no_variable(name, variables.iter().map(|one| one.name.as_str())))
     };
     let mut pairs = Vec::with_capacity(arcs.len());
     for text in arcs {

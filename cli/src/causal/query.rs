@@ -1,7 +1,8 @@
 //! `caveat causal query`: a model and a question go in; probabilities come out.
 
+use ::causal::chance::chance;
 use ::causal::infer::elimination::{joint, most_probable, posterior};
-use ::causal::infer::{InferError, intervene, sample};
+use ::causal::infer::{intervene, sample};
 use ::causal::network::Network;
 use ::causal::variable::{State, States, VariableId};
 
@@ -42,10 +43,6 @@ pub fn run(arguments: &Query, terminal: &mut Terminal) -> Result<Exit, Complaint
     Ok(Exit::Done)
 }
 
-fn complain(error: &InferError) -> Complaint {
-    Complaint::new(error.to_string())
-}
-
 /// Each variable by itself.
 fn apart(
     network: &Network,
@@ -62,7 +59,7 @@ fn apart(
         .max()
         .unwrap_or(0);
     for &target in targets {
-        let probabilities = posterior(network, target, given).map_err(|error| complain(&error))?;
+        let probabilities = posterior(network, target, given)?;
         let variable = network.variable(target);
         if format == Format::Json {
             let states: Vec<serde_json::Value> = variable
@@ -94,7 +91,7 @@ fn together(
     format: Format,
     terminal: &mut Terminal,
 ) -> Result<(), Complaint> {
-    let probabilities = joint(network, targets, given).map_err(|error| complain(&error))?;
+    let probabilities = joint(network, targets, given)?;
     let mut rows = Vec::new();
     for (cell, &probability) in probabilities.iter().enumerate() {
         let mut rest = cell;
@@ -138,7 +135,7 @@ fn explain(
     format: Format,
     terminal: &mut Terminal,
 ) -> Result<Exit, Complaint> {
-    let (states, logarithm) = most_probable(network, given).map_err(|error| complain(&error))?;
+    let (states, logarithm) = most_probable(network, given)?;
     let named = network.ids().map(|id| {
         let variable = network.variable(id);
         (variable.name.clone(), variable.label(states[id.index()]))
@@ -163,8 +160,9 @@ fn draw(
     seed: u64,
     terminal: &mut Terminal,
 ) -> Result<Exit, Complaint> {
-    let table = sample::forward(network, rows, seed).map_err(|error| complain(&error))?;
-    let mut random = sample::generator(seed);
+    let table = sample::forward(network, rows, seed)?;
+    // The places within the states are drawn after the trials, from a piece of chance of their own.
+    let mut random = chance(seed, u64::MAX);
     let quoted = |text: &str| {
         if text.contains([',', '"', '\n']) {
             format!("\"{}\"", text.replace('"', "\"\""))

@@ -21,7 +21,7 @@ pub fn run(arguments: &Show, terminal: &mut Terminal) -> Result<Exit, Complaint>
         model::write(&network, path)?;
     }
     if let Some(path) = &arguments.svg {
-        model::draw(&network, path)?;
+        model::draw(&network, arguments.tables, path)?;
     }
     Ok(Exit::Done)
 }
@@ -128,13 +128,11 @@ fn table(network: &Network, id: VariableId, terminal: &mut Terminal) {
             }
             None => line.push_str(&"unknown  ".repeat(labels.len())),
         }
-        if let Some(trials) = &network.table(id).trials {
-            line += format!("  {:>6}", trials[row]).as_str();
-            if let (Some(state), Some(probabilities)) = (wanted, network.row(id, row)) {
-                // What was counted is told from the probability, which a prior may have moved.
-                let successes =
-                    (probabilities[usize::from(state)] * trials[row] as f64).round() as u64;
-                let (low, high) = credible(successes.min(trials[row]), trials[row], 0.95);
+        if let Some(counts) = network.counts(id, row) {
+            let trials: u64 = counts.iter().sum();
+            line += format!("  {trials:>6}").as_str();
+            if let Some(state) = wanted {
+                let (low, high) = credible(counts[usize::from(state)], trials, 0.95);
                 line += format!("   95 %: {low:.2} to {high:.2}").as_str();
             }
         }

@@ -9,20 +9,15 @@ use ::causal::knowledge::Knowledge;
 use ::causal::network::Goal;
 use ::causal::place::{Policy, Unfit};
 use ::causal::recipe::{Cuts, Declared, Recipe};
+use ::causal::source::Source;
 use ::causal::source::csv::{Csv, Open};
 use ::causal::source::parquet::{self, Parquet};
-use ::causal::source::{Fault, Source};
 use ::causal::survey::survey;
 use ::causal::variable::{Role, Variable};
 
 use crate::args::causal::{Known, Trials, Unfit as Choice};
 use crate::files::{self, Complaint};
 use crate::terminal::Terminal;
-
-/// What a fault of the trials is as a complaint.
-pub fn complain(fault: &Fault) -> Complaint {
-    Complaint::new(fault.to_string())
-}
 
 /// Opens the files, all of one kind.
 pub fn open(arguments: &Trials) -> Result<Box<dyn Source>, Complaint> {
@@ -36,7 +31,7 @@ pub fn open(arguments: &Trials) -> Result<Box<dyn Source>, Complaint> {
             (files::name(path), open)
         });
         let files = files.collect();
-        return Ok(Box::new(Parquet::new(files).map_err(|fault| complain(&fault))?));
+        return Ok(Box::new(Parquet::new(files)?));
     }
     if parquets > 0 {
         return Err(Complaint::new(
@@ -45,7 +40,7 @@ pub fn open(arguments: &Trials) -> Result<Box<dyn Source>, Complaint> {
     }
     let files = arguments.files.iter().map(|path| Ok((files::name(path), opener(path)?)));
     let files = files.collect::<Result<Vec<(String, Open)>, Complaint>>()?;
-    Ok(Box::new(Csv::new(files).map_err(|fault| complain(&fault))?))
+    Ok(Box::new(Csv::new(files)?))
 }
 
 /// Opens a file of CSV again and again; the standard input is kept, since it comes only once.
@@ -103,13 +98,15 @@ pub fn declared(
 }
 
 fn find(declared: &[Declared], name: &str) -> Result<usize, Complaint> {
-    declared.iter().position(|one| one.name == name).ok_or_else(|| {
-        let message = format!("there is no variable `{name}`");
-        match lang::nearest(name, declared.iter().map(|one| one.name.as_str())) {
-            Some(near) => Complaint::with_help(message, format!("did you mean `{near}`?")),
-            None => Complaint::new(message),
-        }
-    })
+    declared
+        .iter()
+        .position(|one| one.name == name)
+        .ok_or_else(|| no_variable(name, declared.iter().map(|one| one.name.as_str())))
+}
+
+/// What to say of a name that no variable has.
+pub fn no_variable<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Complaint {
+    Complaint::misspelt(format!("there is no variable `{name}`"), name, names)
 }
 
 /// The two sides of a sign.
@@ -134,7 +131,7 @@ pub fn states(
     source: &dyn Source,
     terminal: &mut Terminal,
 ) -> Result<Vec<Variable>, Complaint> {
-    let survey = survey(source, declared).map_err(|fault| complain(&fault))?;
+    let survey = survey(source, declared)?;
     for (one, surveyed) in declared.iter().zip(&survey.variables) {
         if let (Some((shard, row)), 1..) = (surveyed.first_missing, surveyed.missing)
             && arguments.missing == Choice::Refuse
@@ -148,8 +145,7 @@ pub fn states(
         }
     }
     let outcome = goal(arguments)?.map(|goal| goal.variable);
-    let found = discretize(source, declared, &survey, outcome.as_deref())
-        .map_err(|fault| complain(&fault))?;
+    let found = discretize(source, declared, &survey, outcome.as_deref())?;
     tell(&found, terminal);
     Ok(found.variables)
 }

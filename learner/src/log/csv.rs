@@ -6,7 +6,7 @@ use std::io::{self, BufRead, Write};
 
 use csv::{ReaderBuilder, StringRecord, Terminator, WriterBuilder};
 
-use super::fault::{BadLine, Fault, nearest};
+use super::fault::{BadLine, Fault};
 use super::header::{self, Scale};
 use super::line::Lines;
 use super::{Fact, Frame, HandSample, HandState, Header, ObjectId, ObjectSample, sample};
@@ -207,8 +207,7 @@ fn column(name: &str, header: &Header) -> Result<Column, Fault> {
     }
     let unknown = || {
         let all = column_names(header);
-        let near = nearest(name, all.iter().map(String::as_str));
-        let hint = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+        let hint = lang::did_you_mean(name, all.iter().map(String::as_str));
         Fault::Column(format!("unknown column `{name}`{hint}"))
     };
     let (thing, part) = name.rsplit_once('.').ok_or_else(unknown)?;

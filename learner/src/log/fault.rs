@@ -36,24 +36,24 @@ pub enum Fault {
     /// It is not JSON, or not of the form that it must have.
     #[error("{0}")]
     Form(String),
-    /// A field does not exist.
-    #[error("unknown field{}", did_you_mean(.0.as_ref()))]
-    UnknownField(Option<String>),
+    /// A field does not exist; the end of the message tells one like it.
+    #[error("unknown field{0}")]
+    UnknownField(String),
     /// The header has no such hand.
-    #[error("the header has no hand `{name}`{}", did_you_mean(.near.as_ref()))]
+    #[error("the header has no hand `{name}`{hint}")]
     UnknownHand {
         /// The name.
         name: String,
-        /// A name like it.
-        near: Option<String>,
+        /// The end of the message: a name like it.
+        hint: String,
     },
     /// The header has no such object.
-    #[error("the header has no object `{name}`{}", did_you_mean(.near.as_ref()))]
+    #[error("the header has no object `{name}`{hint}")]
     UnknownObject {
         /// The name.
         name: String,
-        /// A name like it.
-        near: Option<String>,
+        /// The end of the message: a name like it.
+        hint: String,
     },
     /// Something is named twice.
     #[error("`{0}` is there twice")]
@@ -102,11 +102,6 @@ fn plural(count: usize) -> &'static str {
     if count == 1 { "" } else { "s" }
 }
 
-/// The end of a message about a name that is like a known one.
-fn did_you_mean(name: Option<&String>) -> String {
-    name.map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
-}
-
 impl BadLine {
     /// A fault of a whole line.
     pub(crate) fn new(line: u64, fault: Fault) -> Self {
@@ -144,43 +139,5 @@ impl fmt::Display for BadLine {
             write!(f, "`{field}`: ")?;
         }
         write!(f, "{}", self.fault)
-    }
-}
-
-/// Of some names the one that differs from another by the fewest letters, if they are few.
-pub(super) fn nearest<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> Option<String> {
-    known
-        .map(|other| (distance(name, other), other))
-        .min()
-        .filter(|(distance, _)| *distance <= name.chars().count().div_ceil(3).max(1))
-        .map(|(_, other)| other.to_string())
-}
-
-/// The number of letters to insert, delete or replace (Levenshtein 1966).
-fn distance(one: &str, other: &str) -> usize {
-    let other: Vec<char> = other.chars().collect();
-    let mut row: Vec<usize> = (0..=other.len()).collect();
-    for (place, letter) in one.chars().enumerate() {
-        let mut corner = row[0];
-        row[0] = place + 1;
-        for (index, &with) in other.iter().enumerate() {
-            let replaced = corner + usize::from(letter != with);
-            corner = row[index + 1];
-            row[index + 1] = replaced.min(corner + 1).min(row[index] + 1);
-        }
-    }
-    row[other.len()]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_nearest_name_is_found_if_it_is_near() {
-        let known = ["red-cube", "blue-cube", "table"];
-        assert_eq!(nearest("red-cub", known.into_iter()), Some("red-cube".to_string()));
-        assert_eq!(nearest("spoon", known.into_iter()), None);
-        assert_eq!(distance("kitten", "sitting"), 3);
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::fault::{BadLine, Fault, nearest};
+use super::fault::{BadLine, Fault};
 use super::{Hand, HandId, Header, Joint, Motion, Object, ObjectId, Reach, Type};
 
 /// A header as short as it can be.
@@ -407,13 +407,13 @@ impl Header {
 
     /// What is wrong with a name that should be a hand's.
     pub(crate) fn no_hand(&self, name: &str) -> Fault {
-        let near = nearest(name, self.hands.iter().map(|hand| hand.name.as_str()));
-        Fault::UnknownHand { name: name.to_string(), near }
+        let hint = lang::did_you_mean(name, self.hands.iter().map(|hand| hand.name.as_str()));
+        Fault::UnknownHand { name: name.to_string(), hint }
     }
 
     /// What is wrong with a name that should be an object's.
     pub(crate) fn no_object(&self, name: &str) -> Fault {
-        let near = nearest(name, self.objects.iter().map(|object| object.name.as_str()));
-        Fault::UnknownObject { name: name.to_string(), near }
+        let hint = lang::did_you_mean(name, self.objects.iter().map(|object| object.name.as_str()));
+        Fault::UnknownObject { name: name.to_string(), hint }
     }
 }

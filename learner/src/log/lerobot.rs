@@ -12,7 +12,7 @@ use parquet::record::{Field, Row};
 use parquet::schema::types::Type;
 use serde::Deserialize;
 
-use super::fault::{BadLine, Fault, nearest};
+use super::fault::{BadLine, Fault};
 use super::header::{self, Scale};
 use super::{Frame, HandSample, Header, ObjectSample, sample};
 
@@ -116,9 +116,10 @@ impl Reader {
         let wanted = mapping.columns();
         for column in &wanted {
             if !schema.get_fields().iter().any(|field| field.name() == *column) {
-                let near = nearest(column, schema.get_fields().iter().map(|field| field.name()));
-                let hint =
-                    near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+                let hint = lang::did_you_mean(
+                    column,
+                    schema.get_fields().iter().map(|field| field.name()),
+                );
                 return Err(BadLine::new(
                     0,
                     Fault::Column(format!("there is no column `{column}`{hint}")),

@@ -248,7 +248,7 @@ impl<'t, 'd> Reader<'t, 'd> {
         };
         let Some(&predicate) = self.predicates.get(&name.to_ascii_lowercase()) else {
             let known = self.domain.predicates.iter().map(|one| one.name.text.as_str());
-            let message = unknown("predicate", name, lang::nearest(name, known));
+            let message = unknown("predicate", name, known);
             self.fault(place, message)?;
             return Ok(None);
         };
@@ -277,7 +277,7 @@ impl<'t, 'd> Reader<'t, 'd> {
         for (word, parameter) in words.into_iter().zip(parameters) {
             let Some(object) = self.object(word) else {
                 let known = self.trace.objects.iter().map(|one| one.name.text.as_str());
-                let message = unknown("object", word, lang::nearest(word, known));
+                let message = unknown("object", word, known);
                 self.fault(place, message)?;
                 return Ok(None);
             };
@@ -371,7 +371,7 @@ impl<'t, 'd> Reader<'t, 'd> {
             }
             joint.whole = false;
             let known = self.domain.actions.iter().map(|one| one.name.text.as_str());
-            let message = unknown("action", name, lang::nearest(name, known));
+            let message = unknown("action", name, known);
             return self.fault(place, message);
         };
         let domain = self.domain;
@@ -403,7 +403,7 @@ impl<'t, 'd> Reader<'t, 'd> {
                         types.iter().position(|one| one.name.text.eq_ignore_ascii_case(word));
                     if known.is_none() {
                         let near = types.iter().map(|one| one.name.text.as_str());
-                        let message = unknown("type", word, lang::nearest(word, near));
+                        let message = unknown("type", word, near);
                         self.fault(place, message)?;
                     }
                     let kind = TypeId(known.unwrap_or(0) as u32);
@@ -439,9 +439,10 @@ impl<'t, 'd> Reader<'t, 'd> {
         for at in self.given..self.trace.objects.len() {
             self.trace.objects[at].types = narrowest(domain, &self.stands[at]);
         }
+        let names = self.trace.objects.iter().map(|one| one.name.text.as_str());
         let named = self.reading.agents.iter().map(|name| {
             let known = self.objects.get(&name.to_ascii_lowercase()).copied();
-            known.ok_or_else(|| unknown("object", name, None))
+            known.ok_or_else(|| unknown("object", name, names.clone()))
         });
         match named.collect::<Result<Vec<ObjectId>, String>>() {
             Ok(agents) => self.trace.agents = agents,
@@ -455,9 +456,8 @@ impl<'t, 'd> Reader<'t, 'd> {
     }
 }
 
-fn unknown(what: &str, name: &str, near: Option<&str>) -> String {
-    let hint = near.map(|near| format!("; did you mean `{near}`?"));
-    format!("unknown {what} `{name}`{}", hint.unwrap_or_default())
+fn unknown<'k>(what: &str, name: &str, known: impl Iterator<Item = &'k str>) -> String {
+    format!("unknown {what} `{name}`{}", lang::did_you_mean(name, known))
 }
 
 /// The most specific types among those of the positions in which an object stands.

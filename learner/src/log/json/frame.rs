@@ -6,7 +6,7 @@ use std::fmt;
 
 use serde::de::{self, DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
-use super::super::fault::{BadLine, Fault, nearest};
+use super::super::fault::{BadLine, Fault};
 use super::super::header::{Scale, syntax};
 use super::super::{Fact, Frame, HandSample, HandState, Header, ObjectId, ObjectSample, sample};
 
@@ -124,8 +124,8 @@ impl<'de> Visitor<'de> for Context<'_> {
                     map.next_value::<IgnoredAny>()?;
                 }
                 other => {
-                    let near = nearest(other, ["t", "hands", "objects", "facts"].into_iter());
-                    return Err(self.index.fail(other, Fault::UnknownField(near)));
+                    let hint = lang::did_you_mean(other, ["t", "hands", "objects", "facts"]);
+                    return Err(self.index.fail(other, Fault::UnknownField(hint)));
                 }
             }
         }
@@ -382,8 +382,8 @@ impl<'de> Visitor<'de> for Body<'_> {
                     map.next_value::<IgnoredAny>()?;
                 }
                 key if !fields.contains(&key) => {
-                    let near = nearest(key, fields.iter().copied());
-                    return Err(self.fail(key, Fault::UnknownField(near)));
+                    let hint = lang::did_you_mean(key, fields.iter().copied());
+                    return Err(self.fail(key, Fault::UnknownField(hint)));
                 }
                 "pose" => pose = Some(map.next_value_seed(Pose(&self))?),
                 "joints" => joints = map.next_value()?,
