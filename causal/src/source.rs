@@ -5,6 +5,7 @@
 pub mod csv;
 pub mod parquet;
 pub mod fetch;
+pub mod write;
 
 use thiserror::Error;
 

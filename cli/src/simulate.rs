@@ -1,5 +1,7 @@
 //! `caveat simulate`: the name of a world goes in; the log of a demonstration in it comes out, or whether a plan reaches its goal there.
 
+mod trials;
+
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -18,6 +20,7 @@ pub fn run(arguments: &Simulate, terminal: &mut Terminal) -> Exit {
     let done = match &arguments.what {
         What::Demo(arguments) => demo(arguments, terminal),
         What::Run(arguments) => carry_out(arguments, terminal),
+        What::Stack(arguments) => trials::stack(arguments, terminal),
         What::List => {
             list(terminal);
             Ok(Exit::Done)

@@ -2,6 +2,7 @@
 //!
 //! The domains are plain files, each in its own folder beside this crate's `src`, and README.md there says what each teaches.
 //! [`kitchen`] makes kitchens of any size in which something is missing.
+//! [`trial`] has worlds in which things go wrong, for trials by the thousand.
 //! [`world`] has physical worlds in which demonstrations are shown and plans are carried out.
 //!
 //! ```
@@ -10,8 +11,10 @@
 //! assert!(domains::NAMES.contains(&"stacking"));
 //! ```
 
+mod chance;
 pub mod kitchen;
 pub mod world;
+pub mod trial;
 
 use std::path::PathBuf;
 

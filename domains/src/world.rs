@@ -2,7 +2,7 @@
 //!
 //! The rooms in the order in which data passes them:
 //!
-//! - `chance`, `space`: seeded numbers; poses for the physics engine and back;
+//! - `space`: poses for the physics engine and back;
 //! - `thing`: furniture by its measures;
 //! - `stage`, `screw`: the physical world with its hands, and the thread of a lid;
 //! - `motion`: the ways of hands;
@@ -26,7 +26,6 @@
 
 mod actor;
 mod bottle;
-mod chance;
 mod cubes;
 mod demonstrate;
 mod execute;

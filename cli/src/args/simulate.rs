@@ -32,8 +32,58 @@ pub enum What {
     Demo(Demo),
     /// Carry a plan out, and say whether the goal is reached.
     Run(Run),
+    /// Put cubes onto each other, again and again: trials for `caveat causal`.
+    Stack(StackTrials),
     /// List the worlds, with what can be shown in them and asked for.
     List,
+}
+
+/// How many trials, and where to.
+#[derive(Debug, Args)]
+pub struct TrialFile {
+    /// How many trials.
+    #[arg(long, value_name = "N", default_value = "1000")]
+    pub samples: u64,
+    /// What is set and what chance does.
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub seed: u64,
+    /// Where they are written: CSV, or Parquet (.parquet). What they are goes beside it, into a file that ends in .sheet.json.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+}
+
+/// `caveat simulate stack`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  caveat simulate stack --samples 3000 -o trials.csv
+      one cube is let go over another, 3000 times
+  caveat simulate stack --cubes 3 --samples 500 --seed 2 -o towers.parquet
+      towers of three cubes on a first one
+  caveat simulate stack --world domains/worlds/stack-real.json --friction 0.2 -o slippery.csv
+      another world: other measures, and less friction still")]
+pub struct StackTrials {
+    /// How many cubes are put onto the first one.
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub cubes: usize,
+    /// The measures of the world (JSON); by default those of domains/worlds/stack.json.
+    #[arg(long, value_name = "FILE")]
+    pub world: Option<PathBuf>,
+    /// The edge of the cubes, in cm.
+    #[arg(long, value_name = "CM")]
+    pub size: Option<f64>,
+    /// How much of its speed a cube keeps when it bounces, from 0 to 1.
+    #[arg(long, value_name = "SHARE")]
+    pub restitution: Option<f64>,
+    /// Coulomb's coefficient.
+    #[arg(long, value_name = "COEFFICIENT")]
+    pub friction: Option<f64>,
+    /// How many times as much the gripper errs.
+    #[arg(long, value_name = "FACTOR", default_value = "1")]
+    pub noise: f64,
+    /// The trials.
+    #[command(flatten)]
+    pub trials: TrialFile,
 }
 
 /// What a demonstrator shows.

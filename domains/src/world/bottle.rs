@@ -2,13 +2,13 @@
 //!
 //! The lid sits on a thread. A bottle that stands unheld turns with its lid, since the thread resists more than the table does.
 
-use super::chance::Chance;
 use super::person::{Person, Side};
 use super::scenario::{Goal, Layout, Script, fact, kind, two_hands};
 use super::skill::Skill;
 use super::space::{at, turned};
 use super::stage::Stage;
 use super::thing::{self, Thing};
+use crate::chance::Chance;
 use learner::log::{HandId, Joint, Motion, ObjectId};
 use nalgebra::{Isometry3, Vector3};
 

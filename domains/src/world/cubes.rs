@@ -3,13 +3,13 @@
 //! The goals follow figure 3.1 of the thesis as far as its text tells: two that are shown in demonstrations (one cube on another, a tower of three),
 //! and two that never are (two towers side by side, a tower of four).
 
-use super::chance::Chance;
 use super::person::{Person, Side};
 use super::scenario::{Goal, Layout, Script, Task, fact, kind, two_hands};
 use super::skill::Skill;
 use super::space::{at, turned};
 use super::stage::Stage;
 use super::thing;
+use crate::chance::Chance;
 use learner::log::{HandId, ObjectId};
 use nalgebra::{Isometry3, Translation3, Vector3};
 

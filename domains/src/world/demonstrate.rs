@@ -1,7 +1,6 @@
 //! A scenario, a task, a person and a seed go in; the log of a demonstration comes out, with what really happened beside it.
 
 use super::actor::Actor;
-use super::chance::Chance;
 use super::facts;
 use super::person::Person;
 use super::scenario::{Scenario, Script, Task, header};
@@ -9,6 +8,7 @@ use super::skill::{Planner, Skill, done};
 use super::stage::Stage;
 use super::tracker::Tracker;
 use super::witness::truth;
+use crate::chance::Chance;
 use learner::log::{Fact, Frame, HandId, Header};
 use learner::truth::Truth;
 

@@ -6,7 +6,6 @@
 mod turns;
 
 use super::actor::Actor;
-use super::chance::Chance;
 use super::facts;
 use super::motion::Way;
 use super::person::Person;
@@ -15,6 +14,7 @@ use super::skill::Act;
 use super::stage::Stage;
 use super::thing::Mount;
 use super::tracker::{RATE, Tracker};
+use crate::chance::Chance;
 use learner::log::{Fact, Frame, HandId, Header, ObjectId};
 use learner::waypoints::{Anchor, Doer, Routine, WayPoint};
 use nalgebra::{Isometry3, Translation3, Vector3};

@@ -3,7 +3,6 @@
 //! The left arm reaches the left spot and the tray, the right arm the tray and the right spot, so every cube passes the tray.
 //! Since no arm reaches both outer spots, the puzzle is the one in which discs move between neighbouring pegs only: 3ⁿ − 1 moves.
 
-use super::chance::Chance;
 use super::cubes::in_turn;
 use super::person::Person;
 use super::scenario::{Goal, Layout, Script, fact, kind};
@@ -11,6 +10,7 @@ use super::skill::Skill;
 use super::space::at;
 use super::stage::Stage;
 use super::thing;
+use crate::chance::Chance;
 use learner::log::{Hand, HandId, ObjectId, Reach};
 use nalgebra::Vector3;
 

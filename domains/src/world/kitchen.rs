@@ -2,7 +2,6 @@
 //!
 //! The names are those of `domains/closed-drawer` and `domains/blocked-drawer`, so what is learned here extends those domains.
 
-use super::chance::Chance;
 use super::cubes::{in_turn_from, stray};
 use super::person::{Person, Side};
 use super::scenario::{Goal, Layout, Script, Task, fact, kind, two_hands};
@@ -10,6 +9,7 @@ use super::skill::Skill;
 use super::space::{at, turned};
 use super::stage::Stage;
 use super::thing::{self, Form, Part, Thing};
+use crate::chance::Chance;
 use learner::log::HandId;
 use nalgebra::Vector3;
 

@@ -3,7 +3,7 @@
 //! Persons below [`HELD_OUT`] are for building and tuning. Those from it on are drawn from wider ranges, a part of which no other person ever shows,
 //! and stay unused until the final numbers are taken.
 
-use super::chance::Chance;
+use crate::chance::Chance;
 
 /// The first number of the persons that nothing is tuned on.
 pub const HELD_OUT: u32 = 1000;

@@ -1,11 +1,11 @@
 //! The name of a world and a seed go in; its furniture, its hands, its goals and what its demonstrators do come out.
 
-use super::chance::Chance;
 use super::person::Person;
 use super::skill::Skill;
 use super::stage::Stage;
 use super::thing::{Part, Thing};
 use super::{bottle, cubes, hanoi, kitchen};
+use crate::chance::Chance;
 use learner::log::{Fact, Hand, Header, ObjectId, Type};
 use nalgebra::Isometry3;
 

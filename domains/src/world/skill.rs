@@ -1,11 +1,11 @@
 //! What a hand shall do next goes in, such as to take a cube; the movements that do it in the world as it is now come out.
 
-use super::chance::Chance;
 use super::motion::Way;
 use super::person::Person;
 use super::space::{self, turned, yaw};
 use super::stage::Stage;
 use super::thing::Mount;
+use crate::chance::Chance;
 use learner::log::{HandId, ObjectId};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 

@@ -1,8 +1,8 @@
 //! A physical world goes in; the frame that a tracker with noise and gaps would log comes out.
 
-use super::chance::Chance;
 use super::person::Person;
 use super::stage::Stage;
+use crate::chance::Chance;
 use learner::log::{Frame, HandSample, Motion, ObjectSample};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 

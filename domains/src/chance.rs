@@ -4,11 +4,11 @@ use nalgebra::Vector3;
 
 /// A seeded source of random numbers.
 #[derive(Debug, Clone)]
-pub(crate) struct Chance(fastrand::Rng);
+pub struct Chance(fastrand::Rng);
 
 impl Chance {
     /// A source for a purpose, such that different purposes with one seed share no numbers.
-    pub(crate) fn new(purpose: &str, numbers: &[u64]) -> Self {
+    pub fn new(purpose: &str, numbers: &[u64]) -> Self {
         // FNV-1a over all that tells sources apart; a plain sum would make neighbouring seeds alike.
         let bytes = purpose.bytes().chain(numbers.iter().flat_map(|number| number.to_le_bytes()));
         let seed = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
@@ -18,22 +18,22 @@ impl Chance {
     }
 
     /// A number from a range, each as likely.
-    pub(crate) fn within(&mut self, range: (f64, f64)) -> f64 {
+    pub fn within(&mut self, range: (f64, f64)) -> f64 {
         range.0 + (range.1 - range.0) * self.0.f64()
     }
 
     /// Whether something of a probability happens.
-    pub(crate) fn happens(&mut self, probability: f64) -> bool {
+    pub fn happens(&mut self, probability: f64) -> bool {
         self.0.f64() < probability
     }
 
     /// A whole number below a bound.
-    pub(crate) fn below(&mut self, bound: usize) -> usize {
+    pub fn below(&mut self, bound: usize) -> usize {
         self.0.usize(0..bound)
     }
 
     /// A number from the normal distribution with mean 0 and standard deviation 1.
-    pub(crate) fn normal(&mut self) -> f64 {
+    pub fn normal(&mut self) -> f64 {
         // The polar method of Marsaglia, which needs no trigonometry.
         loop {
             let (first, second) = (self.within((-1.0, 1.0)), self.within((-1.0, 1.0)));
@@ -45,12 +45,12 @@ impl Chance {
     }
 
     /// A vector of independent normal numbers.
-    pub(crate) fn normals(&mut self) -> Vector3<f64> {
+    pub fn normals(&mut self) -> Vector3<f64> {
         Vector3::new(self.normal(), self.normal(), self.normal())
     }
 
     /// Things in another order.
-    pub(crate) fn shuffle<T>(&mut self, things: &mut [T]) {
+    pub fn shuffle<T>(&mut self, things: &mut [T]) {
         self.0.shuffle(things);
     }
 }
