@@ -19,6 +19,10 @@ pub enum Derivation {
 pub enum Operation {
     /// The Euclidean norm of several quantities; of series, at each moment.
     Norm(Vec<Derivation>),
+    /// The sum of several quantities, each as often as the number beside it says: `{"sum": [["x", 1], ["y", 0.5]]}`.
+    Sum(Vec<(Derivation, f64)>),
+    /// The greatest of the absolute values of several quantities.
+    GreatestMagnitude(Vec<Derivation>),
     /// A series less its first value, so that it begins at 0.
     Relative(Derivation),
     /// How far a series moves in all: the sum of the absolute differences of neighbours.
@@ -73,7 +77,10 @@ impl Derivation {
             Self::Column(name) if names.contains(&name.as_str()) => {}
             Self::Column(name) => names.push(name),
             Self::Of(operation) => match &**operation {
-                Operation::Norm(parts) => parts.iter().for_each(|part| part.collect(names)),
+                Operation::Norm(parts) | Operation::GreatestMagnitude(parts) => {
+                    parts.iter().for_each(|part| part.collect(names));
+                }
+                Operation::Sum(parts) => parts.iter().for_each(|(part, _)| part.collect(names)),
                 Operation::Relative(of)
                 | Operation::TotalVariation(of)
                 | Operation::SumOfMagnitudes(of)
@@ -95,6 +102,25 @@ impl Derivation {
                     parts.iter().map(|part| part.value(column)).collect::<Result<_, _>>()?;
                 norm(&parts)?
             }
+            Operation::Sum(parts) => {
+                let mut sum = 0.0;
+                for (part, times) in parts {
+                    sum += times * part.number("sum", column)?;
+                }
+                Value::Number(sum)
+            }
+            Operation::GreatestMagnitude(parts) => {
+                let mut greatest = 0.0_f64;
+                for part in parts {
+                    let magnitude = part.number("greatest-magnitude", column)?.abs();
+                    // A value that is missing makes the whole missing, which `max` would not.
+                    greatest = if magnitude.is_nan() { magnitude } else { greatest.max(magnitude) };
+                    if greatest.is_nan() {
+                        break;
+                    }
+                }
+                Value::Number(greatest)
+            }
             Operation::Relative(of) => {
                 let series = of.series("relative", column)?;
                 let first = series.first().copied().unwrap_or_default();
@@ -112,12 +138,23 @@ impl Derivation {
                 let series = of.series("first", column)?;
                 Value::Number(series.first().copied().unwrap_or(f64::NAN))
             }
-            Operation::Threshold { of, at_least } => match of.value(column)? {
-                Value::Number(value) if value.is_nan() => Value::Number(value),
-                Value::Number(value) => Value::Number(f64::from(u8::from(value >= *at_least))),
-                Value::Series(_) => return Err(DeriveError::NoNumber("threshold", of.to_string())),
+            Operation::Threshold { of, at_least } => match of.number("threshold", column)? {
+                value if value.is_nan() => Value::Number(value),
+                value => Value::Number(f64::from(u8::from(value >= *at_least))),
             },
         })
+    }
+
+    /// A value that must be one number.
+    fn number(
+        &self,
+        what: &'static str,
+        column: &mut dyn FnMut(&str) -> Value,
+    ) -> Result<f64, DeriveError> {
+        match self.value(column)? {
+            Value::Number(value) => Ok(value),
+            Value::Series(_) => Err(DeriveError::NoNumber(what, self.to_string())),
+        }
     }
 
     /// A value that must be a series.
@@ -172,6 +209,23 @@ impl std::fmt::Display for Derivation {
                 let parts: Vec<String> = parts.iter().map(ToString::to_string).collect();
                 write!(f, "norm({})", parts.join(", "))
             }
+            Operation::Sum(parts) => {
+                let parts: Vec<String> = parts
+                    .iter()
+                    .map(|(part, times)| match times {
+                        1.0 => part.to_string(),
+                        times => format!("{times} {part}"),
+                    })
+                    .collect();
+                f.write_str(&parts.join(" + "))
+            }
+            Operation::GreatestMagnitude(parts) => {
+                let parts: Vec<String> = parts.iter().map(|part| format!("|{part}|")).collect();
+                match parts.as_slice() {
+                    [one] => f.write_str(one),
+                    several => write!(f, "the greatest of {}", several.join(", ")),
+                }
+            }
             Operation::Relative(of) => write!(f, "relative({of})"),
             Operation::TotalVariation(of) => write!(f, "total-variation({of})"),
             Operation::SumOfMagnitudes(of) => write!(f, "sum-of-magnitudes({of})"),
@@ -207,6 +261,16 @@ mod tests {
         let threshold = r#"{"threshold": {"of": "rating", "at-least": 4}}"#;
         assert_eq!(value(threshold), Ok(Value::Number(1.0)));
         assert_eq!(value(r#"{"norm": ["rating", "z"]}"#), Ok(Value::Number(20_f64.sqrt())));
+    }
+
+    #[test]
+    fn quantities_are_summed_and_the_greatest_is_taken() {
+        let sum = r#"{"sum": [["rating", -1], ["z", 0.5]]}"#;
+        assert_eq!(value(sum), Ok(Value::Number(-3.0)));
+        let greatest = format!(r#"{{"greatest-magnitude": ["z", {sum}]}}"#);
+        assert_eq!(value(&greatest), Ok(Value::Number(3.0)));
+        let derivation: Derivation = serde_json::from_str(&greatest).unwrap();
+        assert_eq!(derivation.to_string(), "the greatest of |z|, |-1 rating + 0.5 z|");
     }
 
     #[test]

@@ -61,6 +61,18 @@ impl Dag {
         self.parents.is_empty()
     }
 
+    /// Some variables and whatever causes them, directly or through others, in rising order.
+    pub fn ancestors(&self, of: impl IntoIterator<Item = VariableId>) -> Vec<VariableId> {
+        let mut found = vec![false; self.len()];
+        let mut open: Vec<VariableId> = of.into_iter().collect();
+        while let Some(id) = open.pop() {
+            if !std::mem::replace(&mut found[id.index()], true) {
+                open.extend(self.parents(id));
+            }
+        }
+        (0..self.len() as u16).map(VariableId).filter(|id| found[id.index()]).collect()
+    }
+
     /// The parents of a variable, in rising order.
     pub fn parents(&self, child: VariableId) -> &[VariableId] {
         &self.parents[child.index()]

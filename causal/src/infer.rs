@@ -43,18 +43,35 @@ pub const MOST_CELLS: usize = 1 << 27;
 /// # Panics
 /// If a state is none of its variable's.
 pub fn intervene(network: &Network, set: &Evidence) -> Network {
+    let point = |&(id, state): &(VariableId, State)| {
+        let mut probabilities = vec![0.0; network.variable(id).arity()];
+        probabilities[usize::from(state)] = 1.0;
+        (id, probabilities)
+    };
+    without_causes(network, set.iter().map(point))
+}
+
+/// A network in which nothing causes some variables, and each of their states is as likely: what is asked given their states is then
+/// what happens when they are set.
+pub fn sever(network: &Network, ids: &[VariableId]) -> Network {
+    let uniform = |&id: &VariableId| {
+        let arity = network.variable(id).arity();
+        (id, vec![1.0 / arity as f64; arity])
+    };
+    without_causes(network, ids.iter().map(uniform))
+}
+
+fn without_causes(network: &Network, set: impl Iterator<Item = (VariableId, Vec<f64>)>) -> Network {
     let mut parents: Vec<Vec<VariableId>> =
         network.ids().map(|id| network.graph().parents(id).to_vec()).collect();
     let mut tables: Vec<_> = network.ids().map(|id| network.table(id).clone()).collect();
-    for &(id, state) in set {
-        let mut probabilities = vec![0.0; network.variable(id).arity()];
-        probabilities[usize::from(state)] = 1.0;
+    for (id, probabilities) in set {
         parents[id.index()].clear();
         tables[id.index()] = crate::network::Conditional { probabilities, ..Default::default() };
     }
     let graph = crate::graph::Dag::new(parents).expect("taking arcs away closes no cycle");
     let mut after = Network::new(network.variables().to_vec(), graph, tables)
-        .expect("a point is a distribution, and the other tables are as they were");
+        .expect("what is set is a distribution, and the other tables are as they were");
     after.goal.clone_from(&network.goal);
     after.about.clone_from(&network.about);
     after

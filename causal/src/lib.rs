@@ -27,6 +27,9 @@
 //! - [`bootstrap`]: how sure its arcs are;
 //! - [`estimate`](mod@estimate): the probabilities that fit best;
 //! - [`infer`](mod@infer): what follows from what is seen or set;
+//! - [`contrast`](mod@contrast): the nearest situation that would have been a success;
+//! - [`prevent`](mod@prevent): what to do instead of what is going to fail;
+//! - [`words`]: what was wrong, as a sentence;
 //! - [`evaluate`]: how well outcomes are predicted;
 //! - [`file`](mod@file): networks as text and as pictures.
 
@@ -57,5 +60,8 @@ pub mod network;
 pub mod bootstrap;
 pub mod estimate;
 pub mod infer;
+pub mod contrast;
+pub mod prevent;
+pub mod words;
 pub mod evaluate;
 pub mod file;

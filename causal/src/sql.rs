@@ -72,6 +72,25 @@ fn value(derivation: &Derivation, name: &str) -> Result<String, String> {
                 .collect::<Result<_, _>>()?;
             Ok(format!("SQRT({})", squares.join(" + ")))
         }
+        Operation::Sum(parts) => {
+            let parts: Vec<String> = parts
+                .iter()
+                .map(|(part, times)| value(part, name).map(|part| format!("{times:?} * {part}")))
+                .collect::<Result<_, _>>()?;
+            Ok(format!("({})", parts.join(" + ")))
+        }
+        Operation::GreatestMagnitude(parts) => {
+            let parts: Vec<String> =
+                parts.iter().map(|part| value(part, name)).collect::<Result<_, _>>()?;
+            let known: Vec<String> =
+                parts.iter().map(|part| format!("{part} IS NOT NULL")).collect();
+            let magnitudes: Vec<String> = parts.iter().map(|part| format!("ABS({part})")).collect();
+            Ok(format!(
+                "CASE WHEN {} THEN GREATEST({}) END",
+                known.join(" AND "),
+                magnitudes.join(", ")
+            ))
+        }
         Operation::Threshold { of, at_least } => {
             let of = value(of, name)?;
             Ok(format!("CASE WHEN {of} >= {at_least:?} THEN 1 WHEN {of} < {at_least:?} THEN 0 END"))

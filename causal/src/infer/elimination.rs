@@ -58,7 +58,7 @@ pub fn posterior(
 /// The probability of evidence.
 pub fn probability(network: &Network, evidence: &Evidence) -> Result<f64, InferError> {
     check(network, evidence)?;
-    let ids: Vec<VariableId> = ancestors(network, evidence.iter().map(|&(id, _)| id));
+    let ids: Vec<VariableId> = network.graph().ancestors(evidence.iter().map(|&(id, _)| id));
     refuse_unknown(network, ids.iter().copied(), evidence)?;
     let mut factors: Vec<Factor> =
         ids.iter().map(|&id| Factor::of_table(network, id, evidence)).collect();
@@ -192,22 +192,12 @@ fn cheapest(factors: &[Factor], hidden: &[VariableId]) -> Option<VariableId> {
     })
 }
 
-/// Some variables and everything that causes them, in rising order.
-fn ancestors(network: &Network, of: impl Iterator<Item = VariableId>) -> Vec<VariableId> {
-    let mut found = vec![false; network.variables().len()];
-    let mut open: Vec<VariableId> = of.collect();
-    while let Some(id) = open.pop() {
-        if !std::mem::replace(&mut found[id.index()], true) {
-            open.extend(network.graph().parents(id));
-        }
-    }
-    network.ids().filter(|id| found[id.index()]).collect()
-}
-
 /// The variables whose tables matter: among what causes the targets and the evidence, what is joined to a target without passing
 /// something seen.
 fn relevant(network: &Network, targets: &[VariableId], evidence: &Evidence) -> Vec<VariableId> {
-    let all = ancestors(network, targets.iter().copied().chain(evidence.iter().map(|&(id, _)| id)));
+    let all = network
+        .graph()
+        .ancestors(targets.iter().copied().chain(evidence.iter().map(|&(id, _)| id)));
     let many = network.variables().len();
     let mut seen = vec![false; many];
     for (id, _) in evidence {
