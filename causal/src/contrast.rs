@@ -9,30 +9,17 @@
 
 use std::cell::RefCell;
 use std::cmp::Ordering;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::BinaryHeap;
 
 use rustc_hash::FxHashMap;
 use thiserror::Error;
 
-use crate::derive::{Derivation, Value};
+use crate::derive::Derivation;
 use crate::infer::elimination::posterior;
 use crate::infer::{InferError, sever};
 use crate::network::Network;
-use crate::variable::{State, States, Variable, VariableId};
-
-/// What is known of a situation: the values of columns, by their names.
-pub type Situation = BTreeMap<String, Known>;
-
-/// A value of a column.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Known {
-    /// A number.
-    Number(f64),
-    /// A word.
-    Word(String),
-    /// A series of numbers.
-    Series(Vec<f64>),
-}
+use crate::situation::{Outside, Situation, state, typical};
+use crate::variable::{State, VariableId};
 
 /// What is asked.
 #[derive(Debug, Clone)]
@@ -113,15 +100,8 @@ const EQUAL: f64 = 1e-9;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ContrastError {
     /// A value that is in no state of its variable.
-    #[error("`{name}` is {value}, which is no state of the model; {help}")]
-    Outside {
-        /// The variable.
-        name: String,
-        /// Its value.
-        value: String,
-        /// What its states are.
-        help: String,
-    },
+    #[error(transparent)]
+    Outside(#[from] Outside),
     /// A variable that is to be changed, and of which nothing is known.
     #[error("`{0}` may be changed, and its value is not known")]
     Missing(String),
@@ -221,17 +201,6 @@ pub fn corrected(network: &Network, situation: &Situation, changes: &[Change]) -
         after.insert(variable.name.clone(), typical(variable, change.to));
     }
     after
-}
-
-/// The value that stands for a state.
-pub fn typical(variable: &Variable, state: State) -> Known {
-    match &variable.states {
-        States::Categories(words) => Known::Word(words[usize::from(state)].clone()),
-        States::Intervals(_) => {
-            Known::Number(variable.midpoint(state).expect("the state is one of the intervals"))
-        }
-        States::Series(centroids) => Known::Series(centroids[usize::from(state)].clone()),
-    }
 }
 
 /// How probable success is in a situation, as it is.
@@ -473,46 +442,5 @@ impl<'a> Judge<'a> {
 
     fn visit(&self, start: &[State], node: &[State], probability: Option<f64>) -> Visit {
         Visit { changes: self.changes(start, node), probability, cost: self.cost(start, node) }
-    }
-}
-
-/// The state of a variable in a situation; none where nothing is known of it.
-pub fn state(variable: &Variable, situation: &Situation) -> Result<Option<State>, ContrastError> {
-    let outside = |value: String| {
-        let help = match &variable.states {
-            States::Intervals(edges) => {
-                format!("its intervals reach from {} to {}", edges[0], edges[edges.len() - 1])
-            }
-            _ => format!("its states are {}", variable.labels().join(", ")),
-        };
-        ContrastError::Outside { name: variable.name.clone(), value, help }
-    };
-    let place = |known: &Known| match known {
-        Known::Number(value) => {
-            variable.state_of_number(*value).ok_or_else(|| outside(value.to_string()))
-        }
-        Known::Word(word) => variable.state_of_word(word).ok_or_else(|| outside(word.clone())),
-        Known::Series(series) => variable
-            .state_of_series(series)
-            .ok_or_else(|| outside(format!("a series of {} moments", series.len()))),
-    };
-    match &variable.from {
-        None => situation.get(&variable.name).map(place).transpose(),
-        Some(Derivation::Column(column)) => situation.get(column).map(place).transpose(),
-        Some(derivation) => {
-            if derivation.columns().iter().any(|column| !situation.contains_key(*column)) {
-                return Ok(None);
-            }
-            let value = derivation.value(&mut |column| match &situation[column] {
-                Known::Number(value) => Value::Number(*value),
-                Known::Series(series) => Value::Series(series.clone()),
-                Known::Word(_) => Value::Number(f64::NAN),
-            });
-            match value {
-                Ok(Value::Number(value)) => place(&Known::Number(value)).map(Some),
-                Ok(Value::Series(series)) => place(&Known::Series(series)).map(Some),
-                Err(error) => Err(outside(error.to_string())),
-            }
-        }
     }
 }

@@ -27,6 +27,7 @@
 //! - [`bootstrap`]: how sure its arcs are;
 //! - [`estimate`](mod@estimate): the probabilities that fit best;
 //! - [`infer`](mod@infer): what follows from what is seen or set;
+//! - [`situation`]: the values of one trial, and the states that they are;
 //! - [`contrast`](mod@contrast): the nearest situation that would have been a success;
 //! - [`prevent`](mod@prevent): what to do instead of what is going to fail;
 //! - [`words`]: what was wrong, as a sentence;
@@ -60,6 +61,7 @@ pub mod network;
 pub mod bootstrap;
 pub mod estimate;
 pub mod infer;
+pub mod situation;
 pub mod contrast;
 pub mod prevent;
 pub mod words;

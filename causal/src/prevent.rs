@@ -3,7 +3,8 @@
 //! What has been done already is known and not free, whether its effects show now or later (timely shifted failures): a question whose
 //! goal is the last outcome of a chain is asked before each of its actions, with ever fewer variables that are free.
 
-use crate::contrast::{Answer, Contrast, ContrastError, Question, Situation, contrast, corrected};
+use crate::contrast::{Answer, Contrast, ContrastError, Question, contrast, corrected};
+use crate::situation::Situation;
 
 /// What to do.
 #[derive(Debug, Clone, PartialEq)]

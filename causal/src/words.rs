@@ -17,6 +17,29 @@ use crate::variable::{State, States, Variable};
 pub struct Vocabulary {
     /// The words of each variable.
     pub variables: BTreeMap<String, Words>,
+    /// How a situation looks, where it can be drawn.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene: Option<Scene>,
+}
+
+/// Cubes on a table, seen from the side.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct Scene {
+    /// The edge of a cube, in the unit of the variables.
+    pub edge: f64,
+    /// The cubes on the first one, from below.
+    pub cubes: Vec<SceneCube>,
+}
+
+/// A cube that is let go over the one below.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct SceneCube {
+    /// The variable that says how far to the right.
+    pub x: String,
+    /// The variable that says from how high.
+    pub drop: String,
 }
 
 /// The words of a variable: "the upper cube" "was dropped" "too high" or "too low".
@@ -51,12 +74,22 @@ pub enum Audience {
     Engineer,
 }
 
+/// When what is told happens.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Time {
+    /// It has happened.
+    Past,
+    /// It would happen: `was` becomes `would be`.
+    Ahead,
+}
+
 /// What was wrong, as a sentence: "The upper cube was dropped too high and too far to the right of the lower cube."
 pub fn explain(
     network: &Network,
     changes: &[Change],
     vocabulary: &Vocabulary,
     audience: Audience,
+    time: Time,
 ) -> String {
     // What is said of one subject with one verb is said together.
     let mut groups: Vec<((String, String), Vec<String>)> = Vec::new();
@@ -71,6 +104,10 @@ pub fn explain(
     let clauses: Vec<String> = groups
         .into_iter()
         .map(|((subject, verb), whats)| {
+            let verb = match verb.strip_prefix("was") {
+                Some(rest) if time == Time::Ahead => format!("would be{rest}"),
+                _ => verb,
+            };
             format!("{subject} {verb} {}", joined(&without_common_end(whats)))
         })
         .collect();

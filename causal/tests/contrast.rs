@@ -1,11 +1,12 @@
 //! The contrastive search against the thesis's table 2.2 and figure 2.9, and against trying everything.
 
-use causal::contrast::{Contrast, Known, Question, Situation, contrast};
+use causal::contrast::{Contrast, Question, contrast};
 use causal::graph::Dag;
 use causal::network::{Conditional, Network};
 use causal::prevent::{Prevention, prevent};
+use causal::situation::{Known, Situation};
 use causal::variable::{State, Variable, VariableId};
-use causal::words::{Audience, Vocabulary, explain};
+use causal::words::{Audience, Time, Vocabulary, explain};
 use proptest::prelude::*;
 
 /// A network of settings that all cause one outcome, with the probability of success of each combination.
@@ -84,7 +85,10 @@ fn told(network: &Network, found: &Contrast, words: &str) -> String {
         text +=
             &format!("{}: {:.3}, cost {}\n", labels.join(", "), answer.probability, answer.cost);
         for audience in [Audience::User, Audience::Engineer] {
-            text += &format!("  {}\n", explain(network, &answer.changes, &vocabulary, audience));
+            text += &format!(
+                "  {}\n",
+                explain(network, &answer.changes, &vocabulary, audience, Time::Past)
+            );
         }
     }
     text

@@ -11,6 +11,9 @@ mod fit;
 mod show;
 mod query;
 mod evaluate;
+mod ask;
+mod explain;
+mod prevent;
 
 use crate::args::causal::{Causal, What};
 use crate::exit::Exit;
@@ -24,6 +27,8 @@ pub fn run(arguments: &Causal, terminal: &mut Terminal) -> Exit {
         What::Show(arguments) => show::run(arguments, terminal),
         What::Query(arguments) => query::run(arguments, terminal),
         What::Evaluate(arguments) => evaluate::run(arguments, terminal),
+        What::Explain(arguments) => explain::run(arguments, terminal),
+        What::Prevent(arguments) => prevent::run(arguments, terminal),
     };
     done.unwrap_or_else(|complaint| {
         terminal.say(complaint);

@@ -34,7 +34,7 @@ pub fn names(source: &dyn Source) -> Vec<String> {
 }
 
 /// The series and the moment of a column `dist[3]`.
-fn moment(column: &str) -> Option<(&str, usize)> {
+pub fn moment(column: &str) -> Option<(&str, usize)> {
     let (base, rest) = column.strip_suffix(']')?.rsplit_once('[')?;
     Some((base, rest.parse().ok()?)).filter(|(base, _)| !base.is_empty())
 }

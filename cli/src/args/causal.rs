@@ -21,7 +21,7 @@ Examples:
     --recipe domains/one-cube/recipe.json --goal onTop=1
       how well success is predicted in trials that were not learned from
 
-Exit codes: 0 done, 2 could not run."
+Exit codes: 0 done, 1 a failure has no remedy, 2 could not run."
 )]
 pub struct Causal {
     /// What to do.
@@ -42,6 +42,10 @@ pub enum What {
     Query(Query),
     /// Say how well the outcome of other trials is predicted.
     Evaluate(Evaluate),
+    /// Explain a failure: the nearest situation that would have been a success.
+    Explain(Explain),
+    /// Prevent a failure: what to do instead of what is going to fail.
+    Prevent(Prevent),
 }
 
 /// What becomes of trials that do not fit.
@@ -400,4 +404,115 @@ pub struct Evaluate {
     /// How the answer looks.
     #[arg(long, value_name = "FORMAT", default_value = "full")]
     pub output_format: Format,
+}
+
+/// To whom something is told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Listener {
+    /// Somebody who sees what happens.
+    User,
+    /// Somebody who looks inside: with names and values.
+    Engineer,
+}
+
+/// What is asked of a situation.
+#[derive(Debug, Args)]
+pub struct Ask {
+    /// The model: JSON, BIF or XMLBIF.
+    #[arg(value_name = "MODEL")]
+    pub model: PathBuf,
+    /// Success; by default that of the model.
+    #[arg(long, value_name = "NAME=STATE")]
+    pub goal: Option<String>,
+    /// Values of the situation.
+    #[arg(long, value_name = "NAME=VALUE", value_delimiter = ',', allow_hyphen_values = true)]
+    pub at: Vec<String>,
+    /// A file of trials.
+    #[arg(long, value_name = "FILE")]
+    pub trials: Option<PathBuf>,
+    /// What may be changed; by default what is set before a trial.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub free: Vec<String>,
+    /// What may not be changed, such as what has been done already.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub fixed: Vec<String>,
+    /// What a step of a variable costs: one interval, or another word. By default 1.
+    #[arg(long, value_name = "NAME=COST", value_delimiter = ',')]
+    pub weight: Vec<String>,
+    /// Success is likely where its probability is greater.
+    #[arg(long, value_name = "P", default_value = "0.8")]
+    pub threshold: f64,
+    /// A probability that comes from fewer trials is not believed.
+    #[arg(long, value_name = "N", default_value = "5")]
+    pub least_trials: u64,
+    /// The words of variables (JSON); by default those of cube.words.json beside cube.cbn.json.
+    #[arg(long, value_name = "FILE")]
+    pub words: Option<PathBuf>,
+    /// To whom it is told.
+    #[arg(long, value_name = "WHO", default_value = "user")]
+    pub audience: Listener,
+    /// How the answer looks.
+    #[arg(long, value_name = "FORMAT", default_value = "full")]
+    pub output_format: Format,
+}
+
+/// `caveat causal explain`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  caveat causal explain domains/one-cube/cube.cbn.json --at xOff=0.3,yOff=2.1,dropOff=1.5
+      what was wrong when the cube fell
+  caveat causal explain domains/one-cube/cube.cbn.json \\
+    --trials domains/one-cube/trials.csv --row 1 --audience engineer --probabilities
+      a trial of a file, with names and values
+  caveat causal explain domains/one-cube/cube.cbn.json --at xOff=2.4,yOff=2.1,dropOff=1.5 \\
+    --weight xOff=3 --trace --picture fall.svg
+      what is hard to change is dear; how the search went, and a picture
+
+Exit codes: 0 explained, 1 no success is within reach or the model expected one, 2 could not run.")]
+pub struct Explain {
+    /// What is asked.
+    #[command(flatten)]
+    pub ask: Ask,
+    /// The trial of the file, from 1.
+    #[arg(long, value_name = "N", requires = "trials")]
+    pub row: Option<usize>,
+    /// Tell the probabilities of success before and after.
+    #[arg(long)]
+    pub probabilities: bool,
+    /// Show the situations that were looked at, in their order.
+    #[arg(long)]
+    pub trace: bool,
+    /// Draw the failure and the nearest success side by side (SVG).
+    #[arg(long, value_name = "FILE")]
+    pub picture: Option<PathBuf>,
+}
+
+/// `caveat causal prevent`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  caveat causal prevent domains/one-cube/cube.cbn.json --at xOff=0.3,yOff=2.1,dropOff=1.5
+      what to do instead
+  caveat causal prevent domains/one-cube/cube.cbn.json --at xOff=0.3,yOff=2.1,dropOff=1.5 \\
+    --fixed xOff,dropOff --act-below 0.7 --threshold 0.85
+      some of it is done already; act only below 0.7, and then reach more than 0.85
+  caveat causal prevent domains/one-cube/cube.cbn.json \\
+    --trials domains/one-cube/trials.csv -o corrected.csv
+      all trials of a file, each corrected where it needs to be
+
+Exit codes: 0 done, 1 something is beyond help, 2 could not run.")]
+pub struct Prevent {
+    /// What is asked.
+    #[command(flatten)]
+    pub ask: Ask,
+    /// The trial of the file, from 1.
+    #[arg(long, value_name = "N", requires = "trials")]
+    pub row: Option<usize>,
+    /// Change something only where success is less likely; by default the threshold.
+    #[arg(long, value_name = "P")]
+    pub act_below: Option<f64>,
+    /// Write all trials of the file, each corrected where it needs to be (CSV).
+    #[arg(short, long, value_name = "FILE", requires = "trials", conflicts_with = "row")]
+    pub output: Option<PathBuf>,
 }

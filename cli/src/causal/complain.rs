@@ -14,6 +14,7 @@ macro_rules! complain {
 }
 
 complain!(
+    causal::contrast::ContrastError,
     causal::count::CountError,
     causal::discover::DiscoverError,
     causal::estimate::EstimateError,

@@ -7,6 +7,7 @@ use ::causal::network::Network;
 use ::causal::variable::{State, States, VariableId};
 
 use super::model;
+use super::trials::quoted;
 use crate::args::causal::{Format, Query};
 use crate::exit::Exit;
 use crate::files::Complaint;
@@ -163,13 +164,6 @@ fn draw(
     let table = sample::forward(network, rows, seed)?;
     // The places within the states are drawn after the trials, from a piece of chance of their own.
     let mut random = chance(seed, u64::MAX);
-    let quoted = |text: &str| {
-        if text.contains([',', '"', '\n']) {
-            format!("\"{}\"", text.replace('"', "\"\""))
-        } else {
-            text.to_owned()
-        }
-    };
     let mut head: Vec<String> = Vec::new();
     for variable in network.variables() {
         match &variable.states {

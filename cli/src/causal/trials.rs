@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use ::causal::discretize::{Discretized, declare, discretize};
 use ::causal::knowledge::Knowledge;
@@ -19,13 +19,18 @@ use crate::args::causal::{Known, Trials, Unfit as Choice};
 use crate::files::{self, Complaint};
 use crate::terminal::Terminal;
 
-/// Opens the files, all of one kind.
+/// Opens the files of trials.
 pub fn open(arguments: &Trials) -> Result<Box<dyn Source>, Complaint> {
+    open_files(&arguments.files)
+}
+
+/// Opens files, all of one kind.
+pub fn open_files(paths: &[PathBuf]) -> Result<Box<dyn Source>, Complaint> {
     let is_parquet =
         |path: &Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"));
-    let parquets = arguments.files.iter().filter(|path| is_parquet(path)).count();
-    if parquets == arguments.files.len() {
-        let files = arguments.files.iter().map(|path| {
+    let parquets = paths.iter().filter(|path| is_parquet(path)).count();
+    if parquets == paths.len() {
+        let files = paths.iter().map(|path| {
             let own = path.clone();
             let open: parquet::Open<File> = Box::new(move || File::open(&own));
             (files::name(path), open)
@@ -38,7 +43,7 @@ pub fn open(arguments: &Trials) -> Result<Box<dyn Source>, Complaint> {
             "some of the files are CSV and some Parquet; one table is of one kind",
         ));
     }
-    let files = arguments.files.iter().map(|path| Ok((files::name(path), opener(path)?)));
+    let files = paths.iter().map(|path| Ok((files::name(path), opener(path)?)));
     let files = files.collect::<Result<Vec<(String, Open)>, Complaint>>()?;
     Ok(Box::new(Csv::new(files)?))
 }
@@ -187,6 +192,14 @@ pub fn policy(arguments: &Trials) -> Policy {
 #[cfg(feature = "datafusion")]
 pub fn dropping() -> Policy {
     Policy { missing: Unfit::Drop, outside: Unfit::Drop }
+}
+
+/// A cell of CSV.
+pub fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n']) {
+        return format!("\"{}\"", text.replace('"', "\"\""));
+    }
+    text.to_owned()
 }
 
 /// What is known before, from the command line and its file.
