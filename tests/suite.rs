@@ -14,4 +14,5 @@ mod listings;
 mod multiagent_page;
 mod replay;
 mod tidy;
+mod trials;
 mod unsolvable;

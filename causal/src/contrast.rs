@@ -103,7 +103,7 @@ pub enum ContrastError {
     #[error(transparent)]
     Outside(#[from] Outside),
     /// A variable that is to be changed, and of which nothing is known.
-    #[error("`{0}` may be changed, and its value is not known")]
+    #[error("`{0}` may be changed, and its value in this situation is not known")]
     Missing(String),
     /// No variable that may be changed causes success.
     #[error("no variable that may be changed has to do with `{0}` in this model")]
