@@ -421,9 +421,9 @@ impl<'a> Judge<'a> {
     fn cost(&self, start: &[State], node: &[State]) -> f64 {
         let steps = self.free.iter().zip(start.iter().zip(node));
         steps
-            .map(|(step, (from, to))| match step.ordered {
-                true => f64::from(from.abs_diff(*to)) * step.cost,
-                false => f64::from(u8::from(from != to)) * step.cost,
+            .map(|(step, (from, to))| {
+                let steps = if step.ordered { from.abs_diff(*to) } else { u8::from(from != to) };
+                f64::from(steps) * step.cost
             })
             .sum()
     }

@@ -192,7 +192,9 @@ impl World for Stack {
                 number(
                     text("xOff"),
                     sides,
-                    text("how far to the right of the lower cube's middle the upper cube is let go"),
+                    text(
+                        "how far to the right of the lower cube's middle the upper cube is let go",
+                    ),
                 ),
                 number(text("yOff"), sides, text("how far behind it")),
                 number(text("dropOff"), drop, text("how high over the lower cube")),
@@ -207,13 +209,11 @@ impl World for Stack {
             columns.push(number(
                 format!("xOff_{cube}"),
                 sides,
-                format!("how far to the right of the middle of the cube below cube {cube} is let go"),
+                format!(
+                    "how far to the right of the middle of the cube below cube {cube} is let go"
+                ),
             ));
-            columns.push(number(
-                format!("yOff_{cube}"),
-                sides,
-                "how far behind it".to_owned(),
-            ));
+            columns.push(number(format!("yOff_{cube}"), sides, "how far behind it".to_owned()));
             columns.push(number(format!("dropOff_{cube}"), drop, "how high over it".to_owned()));
             columns.push(colour(format!("color_{cube}"), format!("the colour of cube {cube}")));
         }
