@@ -258,10 +258,9 @@ impl Vocabulary {
             }
         }
         let mut new = vec![NONE; self.edits.len()];
-        let mut count = 0;
-        for (number, _) in possible.iter().enumerate().filter(|(_, possible)| **possible) {
-            new[number] = count;
-            count += 1;
+        let kept = (0..possible.len()).filter(|&edit| possible[edit]);
+        for (count, edit) in kept.enumerate() {
+            new[edit] = count as u32;
         }
         let mut number = 0;
         self.edits.retain(|_| {
