@@ -174,7 +174,11 @@ fn what_cannot_be_explained_or_prevented_is_said() {
         format!("explain {cube} {at} --least-trials 100000"),
         format!("explain {cube} --trials few.csv --row 7"),
         format!("explain {cube} --trials few.csv"),
+        format!("explain {cube} {at},onTop=1"),
+        format!("explain {cube} {at} --threshold 1.5"),
+        format!("prevent {cube} {at} --act-below 0.9 --threshold 0.8"),
         format!("prevent {cube} {at} --fixed yOff --threshold 0.99"),
+        format!("prevent {cube} --trials few.csv -o corrected.parquet"),
         format!("prevent {cube} --trials few.csv -o corrected.csv"),
         "explain domains/one-cube/trials.csv --at xOff=0".to_owned(),
     ];
@@ -185,7 +189,7 @@ fn what_cannot_be_explained_or_prevented_is_said() {
         writeln!(all, "$ {command}\n{}{}[exit code {}]\n", run.data, run.talk, run.exit.code())
             .expect("a string takes all");
     }
-    assert!(!desk.path("corrected.csv").exists(), "nothing is written where something is wrong");
+    assert!(desk.file("corrected.csv").ends_with("\n9,0,1,red,red,outside\n"));
     insta::assert_snapshot!(all);
 }
 

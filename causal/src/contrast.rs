@@ -18,7 +18,7 @@ use crate::derive::Derivation;
 use crate::infer::elimination::posterior;
 use crate::infer::{InferError, sever};
 use crate::network::Network;
-use crate::situation::{Outside, Situation, state, typical};
+use crate::situation::{Outside, Situation, column, state, typical};
 use crate::variable::{State, VariableId};
 
 /// What is asked.
@@ -198,7 +198,7 @@ pub fn corrected(network: &Network, situation: &Situation, changes: &[Change]) -
     let mut after = situation.clone();
     for change in changes {
         let variable = network.variable(change.variable);
-        after.insert(variable.name.clone(), typical(variable, change.to));
+        after.insert(column(variable).to_owned(), typical(variable, change.to));
     }
     after
 }
@@ -253,7 +253,7 @@ struct Step {
 impl Step {
     /// The states that are one step away: the intervals beside this one, or any other word.
     fn neighbours(&self, state: State) -> Vec<State> {
-        let all = 0..self.arity as State;
+        let all = (0..self.arity).map(|one| one as State);
         let near =
             |one: &State| if self.ordered { one.abs_diff(state) == 1 } else { *one != state };
         all.filter(near).collect()

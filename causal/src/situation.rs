@@ -92,6 +92,14 @@ fn cell(cells: &Cells, row: usize) -> Option<Known> {
     }
 }
 
+/// The column that a variable comes from: that of its own name, unless another is declared.
+pub fn column(variable: &Variable) -> &str {
+    match &variable.from {
+        Some(Derivation::Column(column)) => column,
+        _ => &variable.name,
+    }
+}
+
 /// The value that stands for a state.
 pub fn typical(variable: &Variable, state: State) -> Known {
     match &variable.states {
@@ -128,8 +136,9 @@ pub fn state(variable: &Variable, situation: &Situation) -> Result<Option<State>
             .ok_or_else(|| outside(format!("a series of {} moments", series.len()))),
     };
     match &variable.from {
-        None => situation.get(&variable.name).map(place).transpose(),
-        Some(Derivation::Column(column)) => situation.get(column).map(place).transpose(),
+        None | Some(Derivation::Column(_)) => {
+            situation.get(column(variable)).map(place).transpose()
+        }
         Some(derivation) => {
             if derivation.columns().iter().any(|column| !situation.contains_key(*column)) {
                 return Ok(None);

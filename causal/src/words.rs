@@ -104,8 +104,10 @@ pub fn explain(
     let clauses: Vec<String> = groups
         .into_iter()
         .map(|((subject, verb), whats)| {
-            let verb = match verb.strip_prefix("was") {
-                Some(rest) if time == Time::Ahead => format!("would be{rest}"),
+            let verb = match verb.split_once(' ') {
+                _ if time == Time::Past => verb,
+                None if verb == "was" => "would be".to_owned(),
+                Some(("was", rest)) => format!("would be {rest}"),
                 _ => verb,
             };
             format!("{subject} {verb} {}", joined(&without_common_end(whats)))

@@ -46,7 +46,7 @@ pub fn draw(question: &Question, answer: &Answer, vocabulary: &Vocabulary) -> St
             top + 15.0,
             escaped(&shortened(&variable.name, 16))
         );
-        for one in 0..arity as u8 {
+        for one in (0..arity).map(|one| one as u8) {
             let left = MARGIN + LABEL + f64::from(one) * width;
             let to = change.map(|change| change.to);
             let fill = match (one == from, Some(one) == to) {

@@ -5,7 +5,7 @@ use std::path::Path;
 use ::causal::contrast::{Answer, Question};
 use ::causal::derive::Derivation;
 use ::causal::network::Network;
-use ::causal::situation::{Known, Situation, situations, typical};
+use ::causal::situation::{Known, Situation, column, situations, state, typical};
 use ::causal::variable::{Role, State, VariableId};
 use ::causal::words::{Audience, Time, Vocabulary, explain, rounded};
 use serde_json::{Value, json};
@@ -34,6 +34,11 @@ pub struct Asked {
 impl Asked {
     /// Reads the model, and what is said of its variables.
     pub fn new(arguments: &Ask) -> Result<Self, Complaint> {
+        if !(0.0..1.0).contains(&arguments.threshold) {
+            let message =
+                format!("the threshold is {}; it is a probability below 1", arguments.threshold);
+            return Err(Complaint::new(message));
+        }
         let network = model::read(&arguments.model)?;
         let goal = match (&arguments.goal, &network.goal) {
             (Some(text), _) => model::assignment(&network, text)?,
@@ -65,6 +70,19 @@ impl Asked {
             least_trials: arguments.least_trials,
             most: MOST,
         }
+    }
+
+    /// The columns that variables come from.
+    fn columns(&self) -> Vec<&str> {
+        let own = self.network.variables().iter().map(column);
+        let made = self.network.variables().iter().filter_map(|one| one.from.as_ref());
+        own.chain(made.flat_map(Derivation::columns)).collect()
+    }
+
+    /// Whether the situation is one in which the goal was reached.
+    pub fn succeeded(&self, situation: &Situation) -> bool {
+        let reached = state(self.network.variable(self.goal.0), situation);
+        reached == Ok(Some(self.goal.1))
     }
 
     /// Success in words: `onTop = 1`.
@@ -205,7 +223,9 @@ pub fn situation(
     };
     for text in &arguments.at {
         let (name, value) = trials::pair(text, '=', "NAME=VALUE")?;
-        model::find(&asked.network, name)?;
+        if !asked.columns().contains(&name) {
+            return Err(trials::no_variable(name, asked.columns()));
+        }
         situation.insert(name.to_owned(), Known::read(value));
     }
     if situation.is_empty() {

@@ -16,6 +16,13 @@ pub fn run(arguments: &Explain, terminal: &mut Terminal) -> Result<Exit, Complai
     let ask = &arguments.ask;
     let asked = Asked::new(ask)?;
     let situation = situation(&asked, ask, arguments.row)?;
+    if asked.succeeded(&situation) {
+        let message = format!("this is a success: {} in it", asked.success());
+        return Err(Complaint::with_help(
+            message,
+            "a failure can be explained; name the other outcome, or none",
+        ));
+    }
     let question = asked.question(ask, &situation);
     let mut found = contrast(&question)?;
     let expected = found.before.is_some_and(|before| before > ask.threshold);

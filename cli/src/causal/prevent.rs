@@ -3,8 +3,9 @@
 use std::io::Write as _;
 use std::path::Path;
 
+use ::causal::contrast::ContrastError;
 use ::causal::prevent::{Prevention, prevent};
-use ::causal::situation::{Known, Situation};
+use ::causal::situation::{Known, Situation, column};
 use ::causal::words::Time;
 use rayon::prelude::*;
 use serde_json::json;
@@ -20,6 +21,10 @@ use crate::terminal::Terminal;
 pub fn run(arguments: &Prevent, terminal: &mut Terminal) -> Result<Exit, Complaint> {
     let ask = &arguments.ask;
     let asked = Asked::new(ask)?;
+    if enough(arguments) > ask.threshold {
+        let message = "what is corrected must become likelier than what is left alone";
+        return Err(Complaint::with_help(message, "`--act-below` is at most `--threshold`"));
+    }
     match (&ask.trials, &arguments.output) {
         (Some(trials), Some(output)) => all(arguments, &asked, trials, output, terminal),
         _ => one(arguments, &asked, terminal),
@@ -60,7 +65,7 @@ fn one(arguments: &Prevent, asked: &Asked, terminal: &mut Terminal) -> Result<Ex
                 for change in &answer.changes {
                     let variable = asked.network.variable(change.variable);
                     let (name, unit) = (&variable.name, variable.unit.as_deref().unwrap_or_default());
-                    let (before, after) = (situation.get(name), &after[name]);
+                    let (before, after) = (situation.get(column(variable)), &after[column(variable)]);
                     let before = before.map_or_else(|| "?".to_owned(), text);
                     terminal.line(format!("  {name}: {} instead of {before} {unit}", text(after)).trim_end());
                 }
@@ -84,43 +89,61 @@ fn all(
     terminal: &mut Terminal,
 ) -> Result<Exit, Complaint> {
     let ask = &arguments.ask;
+    if output.extension().is_some_and(|end| end.eq_ignore_ascii_case("parquet")) {
+        return Err(Complaint::new("corrected trials are written as CSV"));
+    }
     let situations = rows(trials)?;
     let columns = trials::open_files(&[trials.to_owned()])?.columns().to_vec();
     let enough = enough(arguments);
-    let place = |at: usize, error: ::causal::contrast::ContrastError| {
-        Complaint::new(format!("{}, trial {}: {error}", files::name(trials), at + 1))
+    let place = |at: usize, error: &ContrastError| {
+        format!("{}, trial {}: {error}", files::name(trials), at + 1)
     };
-    let found: Vec<Prevention> = situations
+    // A trial outside of what the model has seen is left as it is, and told.
+    let found: Vec<Option<Prevention>> = situations
         .par_iter()
         .enumerate()
-        .map(|(at, situation)| {
-            prevent(&asked.question(ask, situation), enough).map_err(|error| place(at, error))
+        .map(|(at, situation)| match prevent(&asked.question(ask, situation), enough) {
+            Ok(found) => Ok(Some(found)),
+            Err(ContrastError::Outside(_)) => Ok(None),
+            Err(error) => Err(Complaint::new(place(at, &error))),
         })
         .collect::<Result<_, _>>()?;
+    let outside = found.iter().filter(|one| one.is_none()).count();
+    if let Some(at) = found.iter().position(Option::is_none)
+        && let Err(error) = prevent(&asked.question(ask, &situations[at]), enough)
+    {
+        terminal.say(format_args!(
+            "note: {outside} of {} trials lie outside of the model, the first of them: {}",
+            found.len(),
+            place(at, &error)
+        ));
+    }
     files::write_with(output, |out| {
         let mut out = std::io::BufWriter::new(out);
         let names: Vec<String> = columns.iter().map(|name| trials::quoted(name)).collect();
         writeln!(out, "{},prevention", names.join(","))?;
         for (before, found) in situations.iter().zip(&found) {
             let (after, what) = match found {
-                Prevention::Keep(_) => (before, "keep"),
-                Prevention::Correct { situation, .. } => (situation, "correct"),
-                Prevention::Hopeless(_) => (before, "give up"),
+                Some(Prevention::Keep(_)) => (before, "keep"),
+                Some(Prevention::Correct { situation, .. }) => (situation, "correct"),
+                Some(Prevention::Hopeless(_)) => (before, "give up"),
+                None => (before, "outside"),
             };
             let cells: Vec<String> = columns.iter().map(|name| cell(after, name)).collect();
             writeln!(out, "{},{what}", cells.join(","))?;
         }
         out.flush()
     })?;
-    let count = |what: fn(&Prevention) -> bool| found.iter().filter(|one| what(one)).count();
+    let count =
+        |what: fn(&Prevention) -> bool| found.iter().flatten().filter(|one| what(one)).count();
     let kept = count(|one| matches!(one, Prevention::Keep(_)));
     let given_up = count(|one| matches!(one, Prevention::Hopeless(_)));
     terminal.line(format_args!(
         "{} trials: {kept} kept, {} corrected, {given_up} beyond help",
         found.len(),
-        found.len() - kept - given_up
+        found.len() - kept - given_up - outside
     ));
-    Ok(if given_up > 0 { Exit::Findings } else { Exit::Done })
+    Ok(if given_up + outside > 0 { Exit::Findings } else { Exit::Done })
 }
 
 /// The cell of a column.
