@@ -127,7 +127,7 @@ pub enum TransferError {
     #[error("the relation is wrong: {0}")]
     Unknown(String),
     /// A relation that names a variable that does not cause the goal.
-    #[error("the relation is wrong: `{name}` does not cause `{goal}` in the {side}; {causes} does")]
+    #[error("the relation is wrong: `{name}` does not cause `{goal}` in the {side}; {causes}")]
     NoCause {
         /// Of the source or of the target.
         side: &'static str,
@@ -135,7 +135,7 @@ pub enum TransferError {
         name: String,
         /// The goal.
         goal: String,
-        /// What causes it.
+        /// What is said of its causes.
         causes: String,
     },
     /// A relation with two answers to one question.

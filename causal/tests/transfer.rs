@@ -160,7 +160,7 @@ fn relations_by_hand_are_checked() {
     );
     assert_eq!(
         ask(vec![pair("xOff", "onTop_2")]),
-        "the relation is wrong: `onTop_2` does not cause `onTop_2` in the target; xOff_1, xOff_2 does"
+        "the relation is wrong: `onTop_2` does not cause `onTop_2` in the target; its causes are xOff_1, xOff_2"
     );
     assert!(ask(vec![pair("xOff", "xOff_1"), pair("xOff", "xOff_2")]).contains("stands for two"));
     assert!(matches!(

@@ -103,6 +103,10 @@ fn cause(ends: &Ends, name: &str, source: bool) -> Result<VariableId, TransferEr
         side,
         name: name.to_owned(),
         goal: network.variable(goal).name.clone(),
-        causes: if names.is_empty() { "nothing".to_owned() } else { names.join(", ") },
+        causes: if names.is_empty() {
+            "nothing does".to_owned()
+        } else {
+            format!("its causes are {}", names.join(", "))
+        },
     })
 }
