@@ -403,6 +403,8 @@ fn mean<'a>(rows: impl Iterator<Item = &'a Vec<f64>>) -> Option<Vec<f64>> {
 /// Numbers in the same proportions that sum to one.
 fn normal(mut row: Vec<f64>) -> Vec<f64> {
     let whole: f64 = row.iter().sum();
-    row.iter_mut().for_each(|one| *one /= whole);
+    for one in &mut row {
+        *one /= whole;
+    }
     row
 }

@@ -59,6 +59,8 @@ pub struct Measures {
     /// The mean distance of the probabilities of success from the shares of the test, over rows with [`LEAST`] trials or more; none where
     /// there is no such row.
     pub difference: Option<f64>,
+    /// How many rows that are.
+    pub compared: u32,
     /// Of the trials that fail the share that does not take place where one acts only if success is not the less probable; none where no
     /// trial fails.
     pub avoided: Option<f64>,
@@ -240,6 +242,7 @@ impl Test {
             accuracy: right as f64 / all,
             brier: brier / all,
             difference: (compared > 0).then(|| difference / f64::from(compared)),
+            compared,
             avoided: share(avoided, failures),
             given_up: share(given_up, successes),
             unknown: unknown as f64 / all,
@@ -260,6 +263,7 @@ impl Measures {
             accuracy: mean(&|one| one.accuracy),
             brier: mean(&|one| one.brier),
             difference: known(&|one| one.difference),
+            compared: all.first().map_or(0, |one| one.compared),
             avoided: known(&|one| one.avoided),
             given_up: known(&|one| one.given_up),
             unknown: mean(&|one| one.unknown),

@@ -84,7 +84,7 @@ pub struct Transfer {
     #[arg(long, value_name = "NAME")]
     pub strategy: Option<Strategy>,
     /// What the prior is worth in each row, in trials.
-    #[arg(long, value_name = "TRIALS", default_value = "20")]
+    #[arg(long, value_name = "TRIALS", default_value = "20", allow_negative_numbers = true)]
     pub weight: f64,
     /// Which variable stands for which (JSON); by default it is found from names, units, values and roles.
     #[arg(long, value_name = "FILE")]

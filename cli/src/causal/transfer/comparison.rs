@@ -3,7 +3,7 @@
 use ::causal::count::Counter;
 use ::causal::file::curves::{Chart, Curve, Panel, draw};
 use ::causal::table::Table;
-use ::causal::transfer::curve::{Measures, Point, Study, curve};
+use ::causal::transfer::curve::{LEAST, Measures, Point, Study, curve};
 use ::causal::transfer::relation::Relation;
 use ::causal::transfer::{Ends, Strategy};
 
@@ -99,7 +99,10 @@ fn tell(points: &[Point], test: usize, repeats: usize, terminal: &mut Terminal) 
     } else {
         String::new()
     };
-    terminal.line(format_args!("{test} trials predicted{times}"));
+    let compared = points.first().map_or(0, |point| point.measures.compared);
+    terminal.line(format_args!(
+        "{test} trials predicted{times}; the difference is that of {compared} rows, which have {LEAST} of them or more"
+    ));
     let width = points.iter().map(|point| named(point).len()).max().unwrap_or(0);
     terminal.line(format_args!(
         "trials  {:<width$}  accuracy   Brier  difference  failures avoided  successes given up  unknown",
@@ -110,7 +113,8 @@ fn tell(points: &[Point], test: usize, repeats: usize, terminal: &mut Terminal) 
     };
     let mut before = None;
     for point in points {
-        let Measures { accuracy, brier, difference, avoided, given_up, unknown } = point.measures;
+        let Measures { accuracy, brier, difference, avoided, given_up, unknown, .. } =
+            point.measures;
         let trials =
             if before == Some(point.trials) { String::new() } else { point.trials.to_string() };
         before = Some(point.trials);
@@ -134,6 +138,7 @@ fn json(point: &Point) -> serde_json::Value {
         "accuracy": measures.accuracy,
         "brier": measures.brier,
         "difference": measures.difference,
+        "rows-compared": measures.compared,
         "failures-avoided": measures.avoided,
         "successes-given-up": measures.given_up,
         "unknown": measures.unknown,
