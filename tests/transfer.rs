@@ -53,7 +53,7 @@ fn what_cannot_be_carried_over_is_said() {
         format!("{cube} {cube} --weight -1 -o o.json"),
         format!("{cube} {cube} --source-goal onTop=2 -o o.json"),
         format!("{cube} --trials few.csv --goal stays=1 -o o.json"),
-        format!("{cube}"),
+        cube.to_owned(),
         format!("{cube} {cube} --sweep 1,5"),
         "far.json far.json --test few.csv --learning-curve 0,5".to_owned(),
     ];
