@@ -135,7 +135,7 @@ fn drawn_trials_teach_the_model_that_they_were_drawn_from() {
 /// What a verb's `--help` shows is what a newcomer types first.
 #[test]
 fn the_examples_of_the_help_run() {
-    for verb in ["", "discover", "fit", "show", "query", "evaluate"] {
+    for verb in ["", "discover", "fit", "show", "query", "evaluate", "explain", "prevent"] {
         let desk = Desk::new();
         let help = desk.ends(Exit::Done, &format!("caveat causal {verb} --help"));
         let whole = help.replace(" \\\n   ", "");
@@ -147,4 +147,89 @@ fn the_examples_of_the_help_run() {
             desk.ends(Exit::Done, &example.replace(" --forest", ""));
         }
     }
+}
+
+#[test]
+fn what_cannot_be_explained_or_prevented_is_said() {
+    let desk = Desk::new();
+    desk.write("bad.words.json", "{\"variables\": {\"xOff\": {\"subject\": \"it\"}}}");
+    desk.write(
+        "few.csv",
+        "xOff,yOff,dropOff,colorDown,colorUp\n0.1,0.1,1,red,red\n9,0,1,red,red\n",
+    );
+    let cube = "domains/one-cube/cube.cbn.json";
+    let at = "--at xOff=0.3,yOff=2.1,dropOff=1.5";
+    let lines = [
+        format!("explain {cube}"),
+        format!("explain {cube} --at xOff=0.3,yOff=2.1"),
+        format!("explain {cube} --at xOff=0.3,yOf=2.1"),
+        format!("explain {cube} --at xOff=77,yOff=0,dropOff=1"),
+        format!("explain {cube} {at} --goal onTop=2"),
+        format!("explain {cube} {at} --fixed xOff,yOff,dropOff,colorDown,colorUp"),
+        format!("explain {cube} {at} --free colorUp"),
+        format!("explain {cube} {at} --free dropOff"),
+        format!("explain {cube} {at} --weight yOff=0"),
+        format!("explain {cube} {at} --words bad.words.json"),
+        format!("explain {cube} --at xOff=0,yOff=0,dropOff=1"),
+        format!("explain {cube} {at} --least-trials 100000"),
+        format!("explain {cube} --trials few.csv --row 7"),
+        format!("explain {cube} --trials few.csv"),
+        format!("prevent {cube} {at} --fixed yOff --threshold 0.99"),
+        format!("prevent {cube} --trials few.csv -o corrected.csv"),
+        "explain domains/one-cube/trials.csv --at xOff=0".to_owned(),
+    ];
+    let mut all = String::new();
+    for line in lines {
+        let command = format!("caveat causal {line}");
+        let run = desk.run(&command);
+        writeln!(all, "$ {command}\n{}{}[exit code {}]\n", run.data, run.talk, run.exit.code())
+            .expect("a string takes all");
+    }
+    assert!(!desk.path("corrected.csv").exists(), "nothing is written where something is wrong");
+    insta::assert_snapshot!(all);
+}
+
+#[test]
+fn explanations_are_told_in_a_sentence_and_as_json() {
+    let desk = Desk::new();
+    let cube = "domains/one-cube/cube.cbn.json";
+    let mut all = String::new();
+    for line in [
+        "--at xOff=0.3,yOff=2.1,dropOff=1.5",
+        "--at xOff=2.4,yOff=2.1,dropOff=9 --audience engineer --probabilities",
+        "--at xOff=0.3,yOff=2.1,dropOff=1.5 --weight yOff=3 --trace",
+        "--at xOff=0.3,yOff=2.1,dropOff=1.5 --output-format json",
+    ] {
+        all += &desk.shown(Exit::Done, &format!("caveat causal explain {cube} {line}"));
+    }
+    insta::assert_snapshot!(all);
+}
+
+/// What is corrected is what the model then expects to succeed, and what is kept is as it was.
+#[test]
+fn a_corrected_file_needs_no_correction() {
+    let desk = Desk::new();
+    let cube = "domains/one-cube/cube.cbn.json";
+    desk.ends(
+        Exit::Done,
+        &format!("caveat causal prevent {cube} --trials domains/one-cube/trials.csv -o once.csv"),
+    );
+    let said = desk
+        .ends(Exit::Done, &format!("caveat causal prevent {cube} --trials once.csv -o twice.csv"));
+    assert_eq!(said, "3000 trials: 3000 kept, 0 corrected, 0 beyond help\n");
+    let rows = |text: &str| -> Vec<String> {
+        text.lines()
+            .skip(1)
+            .map(|line| line.rsplit_once(',').expect("a last cell").0.to_owned())
+            .collect()
+    };
+    let (once, before) = (desk.file("once.csv"), shipped("one-cube/trials.csv"));
+    for (after, before) in once.lines().zip(before.lines()).skip(1) {
+        assert!(
+            !after.ends_with(",keep") || after == format!("{before},keep"),
+            "{after}\n{before}"
+        );
+    }
+    let twice: Vec<String> = rows(&desk.file("twice.csv"));
+    assert!(twice.iter().zip(rows(&once)).all(|(twice, once)| twice.starts_with(&once)));
 }

@@ -15,4 +15,5 @@ mod listings;
 mod multiagent_page;
 mod replay;
 mod tidy;
+mod trials;
 mod unsolvable;

@@ -103,7 +103,7 @@ pub enum ContrastError {
     #[error(transparent)]
     Outside(#[from] Outside),
     /// A variable that is to be changed, and of which nothing is known.
-    #[error("`{0}` may be changed, and its value is not known")]
+    #[error("`{0}` may be changed, and its value in this situation is not known")]
     Missing(String),
     /// No variable that may be changed causes success.
     #[error("no variable that may be changed has to do with `{0}` in this model")]
@@ -421,9 +421,9 @@ impl<'a> Judge<'a> {
     fn cost(&self, start: &[State], node: &[State]) -> f64 {
         let steps = self.free.iter().zip(start.iter().zip(node));
         steps
-            .map(|(step, (from, to))| match step.ordered {
-                true => f64::from(from.abs_diff(*to)) * step.cost,
-                false => f64::from(u8::from(from != to)) * step.cost,
+            .map(|(step, (from, to))| {
+                let steps = if step.ordered { from.abs_diff(*to) } else { u8::from(from != to) };
+                f64::from(steps) * step.cost
             })
             .sum()
     }

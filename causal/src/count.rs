@@ -107,7 +107,9 @@ pub(crate) fn tally(columns: &[(&[State], usize)], rows: usize, counts: &mut [u6
                 *cell = *cell * arity as u32 + u32::from(state);
             }
         }
-        cells.iter().for_each(|&cell| counts[cell as usize] += 1);
+        for &cell in cells.iter() {
+            counts[cell as usize] += 1;
+        }
     }
 }
 

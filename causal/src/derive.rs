@@ -78,9 +78,15 @@ impl Derivation {
             Self::Column(name) => names.push(name),
             Self::Of(operation) => match &**operation {
                 Operation::Norm(parts) | Operation::GreatestMagnitude(parts) => {
-                    parts.iter().for_each(|part| part.collect(names));
+                    for part in parts {
+                        part.collect(names);
+                    }
                 }
-                Operation::Sum(parts) => parts.iter().for_each(|(part, _)| part.collect(names)),
+                Operation::Sum(parts) => {
+                    for (part, _) in parts {
+                        part.collect(names);
+                    }
+                }
                 Operation::Relative(of)
                 | Operation::TotalVariation(of)
                 | Operation::SumOfMagnitudes(of)

@@ -95,7 +95,7 @@ pub fn explain(
     let mut groups: Vec<((String, String), Vec<String>)> = Vec::new();
     for change in changes {
         let variable = network.variable(change.variable);
-        let (head, what) = phrase(variable, change, vocabulary, audience);
+        let (head, what) = phrase(variable, *change, vocabulary, audience);
         match groups.iter_mut().find(|(other, _)| *other == head) {
             Some((_, whats)) => whats.push(what),
             None => groups.push((head, vec![what])),
@@ -117,7 +117,7 @@ pub fn explain(
 /// The subject with its verb, and what was wrong.
 fn phrase(
     variable: &Variable,
-    change: &Change,
+    change: Change,
     vocabulary: &Vocabulary,
     audience: Audience,
 ) -> ((String, String), String) {
@@ -146,13 +146,11 @@ fn phrase(
             format!("{} instead of {}", called(change.from), called(change.to))
         }
     };
-    match audience {
-        Audience::User => (head, what),
-        Audience::Engineer if words.engineer.is_none() || variable.is_ordered() => {
-            (head, format!("{what} (`{}` {})", variable.name, instead()))
-        }
-        Audience::Engineer => (head, what),
+    // An engineer is told the values, too, unless they have just been told.
+    if audience == Audience::Engineer && (words.engineer.is_none() || variable.is_ordered()) {
+        return (head, format!("{what} (`{}` {})", variable.name, instead()));
     }
+    (head, what)
 }
 
 /// A state in words: an interval as `4.5 to 5.5 cm`.

@@ -1,5 +1,7 @@
 //! The contrastive search against the thesis's table 2.2 and figure 2.9, and against trying everything.
 
+use std::fmt::Write as _;
+
 use causal::contrast::{Contrast, Question, contrast};
 use causal::graph::Dag;
 use causal::network::{Conditional, Network};
@@ -8,6 +10,13 @@ use causal::situation::{Known, Situation};
 use causal::variable::{State, Variable, VariableId};
 use causal::words::{Audience, Time, Vocabulary, explain};
 use proptest::prelude::*;
+
+/// Adds a line.
+macro_rules! put {
+    ($text:ident, $($piece:tt)*) => {
+        writeln!($text, $($piece)*).expect("a string takes any text")
+    };
+}
 
 /// A network of settings that all cause one outcome, with the probability of success of each combination.
 fn network(settings: Vec<Variable>, success: impl Fn(&[State]) -> f64) -> Network {
@@ -82,11 +91,11 @@ fn told(network: &Network, found: &Contrast, words: &str) -> String {
                 )
             })
             .collect();
-        text +=
-            &format!("{}: {:.3}, cost {}\n", labels.join(", "), answer.probability, answer.cost);
+        put!(text, "{}: {:.3}, cost {}", labels.join(", "), answer.probability, answer.cost);
         for audience in [Audience::User, Audience::Engineer] {
-            text += &format!(
-                "  {}\n",
+            put!(
+                text,
+                "  {}",
                 explain(network, &answer.changes, &vocabulary, audience, Time::Past)
             );
         }
@@ -162,8 +171,9 @@ fn the_search_of_figure_2_9() {
         }
         let probability = visit.probability.expect("all rows are known");
         let taken = if probability > 0.8 { "  <- likely" } else { "" };
-        text += &format!(
-            "{} step(s): x{} y{}  {probability:.1}{taken}\n",
+        put!(
+            text,
+            "{} step(s): x{} y{}  {probability:.1}{taken}",
             visit.cost,
             states[0] + 1,
             states[1] + 1

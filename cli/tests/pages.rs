@@ -24,7 +24,7 @@ fn the_page_on_learning_shows_what_is_printed() {
 
 #[test]
 fn the_page_on_causal_networks_shows_what_is_printed() {
-    holds("docs/causal.md", 12);
+    holds("docs/causal.md", 17);
 }
 
 #[test]

@@ -22,6 +22,7 @@ use rayon::prelude::*;
 
 /// What came of a trial.
 #[derive(Default)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a line of the table")]
 struct Outcome {
     plain: bool,
     predicted: bool,

@@ -338,7 +338,9 @@ impl Run<'_> {
                     // All that could be cheaper was looked at before.
                     return Ok(Some(self.excuses(found, missing, true)));
                 }
-                self.bound = self.bound.max(reached.unwrap_or(0));
+                // What is not open, or was too dear to be opened, costs more than the bound.
+                let most = if whole { u32::MAX } else { bound.saturating_add(1) };
+                self.bound = self.bound.max(reached.unwrap_or(0).min(most));
                 Some(self.end(Unfinished::Stopped(stop)))
             }
             End::Done => {
@@ -373,7 +375,10 @@ impl Run<'_> {
     /// The outcome where no more can be found out.
     fn end(&mut self, reason: Unfinished) -> Outcome {
         match (self.best.take(), reason) {
-            (Some((found, missing)), _) => self.excuses(found, missing, false),
+            (Some((found, missing)), _) => {
+                let proven = found.cost <= self.bound;
+                self.excuses(found, missing, proven)
+            }
             (None, Unfinished::Stopped(stop)) if !self.unsolvable => Outcome::Undecided(stop),
             (None, _) => Outcome::Unknown { bound: self.bound, reason },
         }
@@ -397,7 +402,7 @@ struct Level {
     last: bool,
 }
 
-/// The levels, in the order in which they are tried: each opens what costs a bit more; when all is open the bound doubles.
+/// The levels, in the order in which they are tried: each opens what costs a bit more; when all is open the bound grows by half.
 fn stages(
     domain: &Domain,
     problem: &Problem,
@@ -418,11 +423,13 @@ fn stages(
         .windows(2)
         .map(|pair| Level { most: pair[0], bound: pair[1] - 1, last: false })
         .collect();
-    let doubled = (1..32).map(move |power| {
-        let bound = dearest.saturating_mul(1 << power).saturating_sub(1);
-        Level { most: dearest, bound, last: true }
+    // What a purse affords grows much faster than the purse, so that a bound is not raised by more than half of it.
+    let start = dearest.saturating_mul(2).saturating_sub(1);
+    let bounds = std::iter::successors(Some(start), |&bound| {
+        (bound < u32::MAX).then(|| bound.saturating_add(bound.div_ceil(2)))
     });
-    Ok(first.into_iter().chain(doubled))
+    let all = bounds.map(move |bound| Level { most: dearest, bound, last: true });
+    Ok(first.into_iter().chain(all))
 }
 
 /// All that may be changed, said in facts of the problem.

@@ -70,16 +70,16 @@ pub struct StackTrials {
     #[arg(long, value_name = "FILE")]
     pub world: Option<PathBuf>,
     /// The edge of the cubes, in cm.
-    #[arg(long, value_name = "CM")]
+    #[arg(long, value_name = "CM", allow_negative_numbers = true)]
     pub size: Option<f64>,
     /// How much of its speed a cube keeps when it bounces, from 0 to 1.
-    #[arg(long, value_name = "SHARE")]
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
     pub restitution: Option<f64>,
     /// Coulomb's coefficient.
-    #[arg(long, value_name = "COEFFICIENT")]
+    #[arg(long, value_name = "COEFFICIENT", allow_negative_numbers = true)]
     pub friction: Option<f64>,
     /// How many times as much the gripper errs.
-    #[arg(long, value_name = "FACTOR", default_value = "1")]
+    #[arg(long, value_name = "FACTOR", default_value = "1", allow_negative_numbers = true)]
     pub noise: f64,
     /// The trials.
     #[command(flatten)]

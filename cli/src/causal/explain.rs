@@ -17,8 +17,12 @@ pub fn run(arguments: &Explain, terminal: &mut Terminal) -> Result<Exit, Complai
     let asked = Asked::new(ask)?;
     let situation = situation(&asked, ask, arguments.row)?;
     let question = asked.question(ask, &situation);
-    let found = contrast(&question)?;
+    let mut found = contrast(&question)?;
     let expected = found.before.is_some_and(|before| before > ask.threshold);
+    if expected {
+        // Another situation that would have succeeded as well explains nothing.
+        found.answers.clear();
+    }
     if let (Some(path), Some(answer)) = (&arguments.picture, found.answers.first()) {
         files::write(path, draw(&question, answer, &asked.vocabulary).as_bytes())?;
     }
@@ -39,7 +43,7 @@ pub fn run(arguments: &Explain, terminal: &mut Terminal) -> Result<Exit, Complai
         }
         Format::Full => tell(arguments, &asked, &found, expected, terminal),
     }
-    Ok(if found.answers.is_empty() || expected { Exit::Findings } else { Exit::Done })
+    Ok(if found.answers.is_empty() { Exit::Findings } else { Exit::Done })
 }
 
 fn tell(
@@ -70,6 +74,9 @@ fn tell(
             asked.success()
         ));
     }
+    if expected {
+        return;
+    }
     let values = if arguments.probabilities {
         format!(" ({} -> {{}})", known(found.before))
     } else {
@@ -85,7 +92,8 @@ fn tell(
             asked.free.iter().map(|&(id, _)| asked.network.variable(id).name.clone()).collect();
         let unsure = match found.unsure {
             0 => String::new(),
-            some => format!("; of {some} of them too few trials are known"),
+            all if all == found.looked => "; too few trials are known of any of them".to_owned(),
+            some => format!("; too few trials are known of {some} of them"),
         };
         let all = if found.complete { "none" } else { "the search was given up: none" };
         terminal.line(format_args!(

@@ -156,7 +156,7 @@ impl Report<'_> {
             let Some(to) = change.to.as_ref().filter(|_| !told) else { continue };
             let now = match &change.from {
                 Some(from) => {
-                    let it = from.arguments.first() == to.arguments.first();
+                    let it = words.subject(from) == words.subject(to);
                     words.clause(from, Mood::Is, it && !from.arguments.is_empty())
                 }
                 None => words.clause(to, Mood::IsNot, true),

@@ -1,12 +1,13 @@
 //! Facts and changes go in; clauses of English sentences come out: `pink-drawer is open`, `the key were in box`.
 //!
-//! A fact about one object is an adjective of it, one about two a relation between them. Predicates that begin with a verb (`has-image`, `blocks`) keep
-//! it, and whatever has more arguments is quoted as it is written.
+//! A fact about one object is an adjective of it, one about two a relation between them; where a noun gives each thing one value, it is what the thing has
+//! (`the charge of rover1 is level6`). Predicates that begin with a verb (`has-image`, `blocks`) keep it, and whatever has more arguments is quoted as it is
+//! written.
 
 use std::fmt::{self, Write};
 
 use lang::condition::Condition;
-use lang::model::{Domain, Fact, ObjectId, Problem, Term, VariableId};
+use lang::model::{Domain, Fact, ObjectId, PredicateId, Problem, Term, VariableId};
 use planner::excuse::Change;
 
 /// The names by which a domain and a problem speak.
@@ -49,7 +50,45 @@ fn verb(word: &str) -> Option<&str> {
     }
 }
 
+/// Words that relate two things, so that a name that begins or ends with one is no noun: the prepositions of English, and adjectives that compare.
+const RELATIONS: &str = "aboard about above across after against ahead along alongside among around as at before behind below beneath \
+    beside besides between beyond by close down during equal far for free from in inside into larger left less like near next of off \
+    on onto opposite out outside over past right same similar since smaller than through to towards under underneath until up upon with within";
+
+/// How participles and adjectives end: `connected`, `holding`, `visible`, `adjacent`.
+const ADJECTIVES: [&str; 7] = ["ed", "ing", "able", "ible", "jacent", "parallel", "held"];
+
+/// Whether words are a noun, as far as their form shows.
+fn is_noun(words: &str) -> bool {
+    let (first, last) = (words.split(' ').next(), words.split(' ').next_back());
+    let relates =
+        |word: Option<&str>| word.is_none_or(|word| RELATIONS.split(' ').any(|one| one == word));
+    !relates(first) && !relates(last) && !ADJECTIVES.iter().any(|end| words.ends_with(end))
+}
+
 impl Words<'_> {
+    /// The noun that a fact gives a value: the name of its predicate, if it is one and things have one such value each in the initial state.
+    fn noun(self, fact: &Fact) -> Option<String> {
+        let (verb, name) = self.predicate(fact);
+        let written = self.domain.predicates[fact.predicate.index()].name.text.to_lowercase();
+        let says_so = written.starts_with("is-") || written.starts_with("is_");
+        if fact.arguments.len() != 2 || verb.is_some() || says_so || !is_noun(&name) {
+            return None;
+        }
+        let alike = self.problem.init.iter().filter(|other| other.predicate == fact.predicate);
+        let mut things: Vec<ObjectId> = alike.map(|other| other.arguments[0]).collect();
+        let all = things.len();
+        things.sort_unstable();
+        things.dedup();
+        (things.len() == all && all > 0).then_some(name)
+    }
+
+    /// What a clause about a fact is about: a thing, or what it has.
+    pub fn subject(self, fact: &Fact) -> Option<(ObjectId, Option<PredicateId>)> {
+        let noun = self.noun(fact).map(|_| fact.predicate);
+        fact.arguments.first().map(|&object| (object, noun))
+    }
+
     /// An object.
     pub fn object(self, object: ObjectId) -> String {
         self.problem.objects[object.index()].name.text.clone()
@@ -90,6 +129,12 @@ impl Words<'_> {
             Mood::WereNot => ("were not", "did not hold"),
         };
         let subject = |object: ObjectId| if it { "it".to_owned() } else { self.object(object) };
+        if let (Some(noun), [one, other]) = (self.noun(fact), &*fact.arguments) {
+            let value = self.object(*other);
+            let subject =
+                if it { "it".to_owned() } else { format!("the {noun} of {}", self.object(*one)) };
+            return format!("{subject} {is} {value}");
+        }
         let (verb, rest) = self.predicate(fact);
         match (&*fact.arguments, verb) {
             ([one], None) => format!("{} {is} {rest}", subject(*one)),
@@ -119,6 +164,9 @@ impl Words<'_> {
 
     /// What an action does that makes a fact true: `makes pink-drawer open`.
     pub fn makes(self, fact: &Fact) -> String {
+        if let (Some(noun), [one, other]) = (self.noun(fact), &*fact.arguments) {
+            return format!("makes the {noun} of {} {}", self.object(*one), self.object(*other));
+        }
         let (verb, rest) = self.predicate(fact);
         match (&*fact.arguments, verb) {
             ([one], None) => format!("makes {} {rest}", self.object(*one)),
@@ -131,6 +179,9 @@ impl Words<'_> {
 
     /// What a goal asks for, after "the goal needs": `red-plate inside pink-drawer`.
     pub fn wish(self, fact: &Fact) -> String {
+        if let (Some(noun), [one, other]) = (self.noun(fact), &*fact.arguments) {
+            return format!("the {noun} of {} to be {}", self.object(*one), self.object(*other));
+        }
         let (verb, rest) = self.predicate(fact);
         match (&*fact.arguments, verb) {
             ([one], None) => format!("{} {rest}", self.object(*one)),

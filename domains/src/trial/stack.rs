@@ -119,9 +119,9 @@ pub struct Stack {
 /// Where a cube is let go.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
-    /// Off the middle of the cube below, in cm.
+    /// To the right of the middle of the cube below, in cm.
     pub x: f64,
-    /// The same, to the side.
+    /// The same, to the back.
     pub y: f64,
     /// From the top of the cube below, in cm.
     pub drop: f64,
@@ -192,9 +192,11 @@ impl World for Stack {
                 number(
                     text("xOff"),
                     sides,
-                    text("how far in front of the lower cube's middle the upper cube is let go"),
+                    text(
+                        "how far to the right of the lower cube's middle the upper cube is let go",
+                    ),
                 ),
-                number(text("yOff"), sides, text("how far to the left of it")),
+                number(text("yOff"), sides, text("how far behind it")),
                 number(text("dropOff"), drop, text("how high over the lower cube")),
                 colour(text("colorDown"), text("the colour of the lower cube")),
                 colour(text("colorUp"), text("the colour of the upper cube")),
@@ -207,13 +209,11 @@ impl World for Stack {
             columns.push(number(
                 format!("xOff_{cube}"),
                 sides,
-                format!("how far in front of the middle of the cube below cube {cube} is let go"),
+                format!(
+                    "how far to the right of the middle of the cube below cube {cube} is let go"
+                ),
             ));
-            columns.push(number(
-                format!("yOff_{cube}"),
-                sides,
-                "how far to the left of it".to_owned(),
-            ));
+            columns.push(number(format!("yOff_{cube}"), sides, "how far behind it".to_owned()));
             columns.push(number(format!("dropOff_{cube}"), drop, "how high over it".to_owned()));
             columns.push(colour(format!("color_{cube}"), format!("the colour of cube {cube}")));
         }

@@ -122,6 +122,7 @@ impl Vocabulary {
         for variable in 0..vocabulary.variables.len() as u32 {
             vocabulary.edit(open, variable);
         }
+        vocabulary.leave_out_impossible();
         vocabulary
     }
 
@@ -238,6 +239,84 @@ impl Vocabulary {
             self.variables[number as usize].edits.push(id);
             self.edits.push(edit);
         }
+    }
+}
+
+impl Vocabulary {
+    /// Leaves out the edits that break a group whatever else is changed.
+    fn leave_out_impossible(&mut self) {
+        let mut possible = vec![true; self.edits.len()];
+        loop {
+            let impossible: Vec<usize> = (0..self.edits.len())
+                .filter(|&edit| possible[edit] && !self.is_possible(&self.edits[edit], &possible))
+                .collect();
+            if impossible.is_empty() {
+                break;
+            }
+            for edit in impossible {
+                possible[edit] = false;
+            }
+        }
+        let mut new = vec![NONE; self.edits.len()];
+        let kept = (0..possible.len()).filter(|&edit| possible[edit]);
+        for (count, edit) in kept.enumerate() {
+            new[edit] = count as u32;
+        }
+        let mut number = 0;
+        self.edits.retain(|_| {
+            number += 1;
+            possible[number - 1]
+        });
+        let renumber = |edits: &mut Vec<u32>| {
+            edits.retain_mut(|edit| {
+                *edit = new[*edit as usize];
+                *edit != NONE
+            });
+        };
+        for edit in &mut self.edits {
+            renumber(&mut edit.needs);
+        }
+        for variable in &mut self.variables {
+            renumber(&mut variable.edits);
+        }
+        for maker in self.makers.iter_mut().filter(|maker| **maker != NONE) {
+            *maker = new[*maker as usize];
+        }
+    }
+
+    /// Whether the groups that an edit touches can be kept whole by some of the `possible` edits of other variables.
+    fn is_possible(&self, edit: &Edit, possible: &[bool]) -> bool {
+        let groups = |fact: Option<FactId>| {
+            let numbers = fact.map_or(&[][..], |fact| &self.memberships[fact.index()]);
+            numbers.iter().map(|&group| &self.groups[group as usize])
+        };
+        let among = |group: &Group, fact: Option<FactId>| {
+            fact.is_some_and(|fact| group.facts.binary_search(&fact).is_ok())
+        };
+        // What holds and is excluded by what will hold has to give way to something else.
+        let gives_way = |group: &Group, other: FactId| {
+            let home = self.homes[other.index()];
+            let variable = (home != NONE).then(|| &self.variables[home as usize]);
+            variable.is_none_or(|variable| {
+                home == edit.variable
+                    || variable.initial != Some(other)
+                    || variable.edits.iter().any(|&way| {
+                        possible[way as usize] && !among(group, self.edits[way as usize].to)
+                    })
+            })
+        };
+        // Where one fact has to hold, another has to take the place of what held.
+        let comes = |group: &Group| {
+            among(group, edit.to)
+                || group.facts.iter().any(|&other| {
+                    let maker = self.makers[other.index()];
+                    maker != NONE
+                        && possible[maker as usize]
+                        && self.homes[other.index()] != edit.variable
+                })
+        };
+        groups(edit.to).all(|group| group.facts.iter().all(|&other| gives_way(group, other)))
+            && groups(edit.from).all(|group| !group.exactly || comes(group))
     }
 }
 

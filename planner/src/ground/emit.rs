@@ -120,6 +120,7 @@ impl<'a> Emission<'a> {
     /// # Errors
     /// Why it was stopped, if it was.
     pub fn run(&mut self, reach: &Reach) -> Result<bool, Stop> {
+        self.reserve(reach)?;
         for (number, schema) in self.normal.schemas.iter().enumerate() {
             self.schema(schema, &reach.instances[number], reach.counts[number])?;
         }
@@ -145,6 +146,30 @@ impl<'a> Emission<'a> {
             }
         }
         self.goal()
+    }
+
+    /// Makes room for what is about as much as the instances need, so that little is copied while it grows.
+    fn reserve(&mut self, reach: &Reach) -> Result<(), Stop> {
+        let (mut operators, mut literals, mut effects) = (0, 0, 0);
+        for (schema, &count) in self.normal.schemas.iter().zip(&reach.counts) {
+            let dynamic = |literal: &&normal::Literal| {
+                self.normal.predicates[literal.atom.predicate.index()].kind != Kind::Static
+            };
+            let count = count as usize;
+            let conditions = [&schema.condition].into_iter();
+            let conditions =
+                conditions.chain(schema.effects.iter().map(|effect| &effect.condition));
+            let each: usize =
+                conditions.map(|one| one.literals.iter().filter(dynamic).count()).sum();
+            operators += count;
+            literals += count.saturating_mul(each);
+            effects += count.saturating_mul(schema.effects.len());
+        }
+        let grounded = &mut self.grounded;
+        let made = grounded.operators.try_reserve_exact(operators);
+        let made = made.and_then(|()| grounded.literals.try_reserve_exact(literals));
+        let made = made.and_then(|()| grounded.effects.try_reserve_exact(effects));
+        made.map_err(|_| Stop::Memory)
     }
 
     fn poll(&self, count: usize) -> Result<(), Stop> {

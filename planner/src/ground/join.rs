@@ -340,6 +340,20 @@ impl Purse {
         true
     }
 
+    /// Whether nothing of this price can be paid for, and it is known already that something was too dear.
+    #[inline]
+    fn is_short(&self, price: u32) -> bool {
+        price > self.left && self.was_short
+    }
+
+    /// The rows of a relation that are paid for, the last first.
+    fn paid_of(&self, relation: u32) -> Vec<u32> {
+        let of = self.paid.iter().filter(|(of, _)| *of == relation);
+        let mut rows: Vec<u32> = of.map(|&(_, row)| row).collect();
+        rows.sort_unstable_by(|left, right| right.cmp(left));
+        rows
+    }
+
     /// Pays for a row and the objects in it; what to give back when it is matched no longer, or nothing if it is too dear.
     #[inline]
     fn pay(&mut self, relation: &Relation, predicate: u32, row: u32) -> Option<Receipt> {
@@ -481,8 +495,19 @@ impl Join<'_> {
                 for (slot, &column) in key.iter_mut().zip(columns) {
                     *slot = value(atom.arguments[column as usize], self.binding);
                 }
+                let bound = &key[..columns.len().min(WIDEST_KEY)];
+                // Where nothing can be paid for any more, what costs something is passed over at once, except what is paid for already.
+                let short = self.purse.is_short(relation.charged());
+                let paid = if short { self.purse.paid_of(atom.predicate.0) } else { Vec::new() };
+                let mut paid = paid.into_iter();
+                let free = match index {
+                    _ if !short => NONE,
+                    Some(index) => relation.first_free(*index, bound),
+                    None => relation.free().wrapping_sub(1),
+                };
                 let mut row = match index {
-                    Some(index) => relation.first(*index, &key[..columns.len().min(WIDEST_KEY)]),
+                    _ if short => paid.next().unwrap_or(free),
+                    Some(index) => relation.first(*index, bound),
                     None => relation.visible().wrapping_sub(1),
                 };
                 while row != NONE {
@@ -508,6 +533,7 @@ impl Join<'_> {
                         }
                     }
                     row = match index {
+                        _ if short && relation.price(row) > 0 => paid.next().unwrap_or(free),
                         Some(index) => relation.next(*index, row),
                         None => row.wrapping_sub(1),
                     };

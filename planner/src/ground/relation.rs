@@ -31,10 +31,12 @@ struct Index {
     columns: Vec<u32>,
     heads: Heads,
     next: Vec<u32>,
+    /// The first row of each chain among those that are free, where others are not.
+    free: Option<Heads>,
 }
 
 /// The first row of each chain.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 enum Heads {
     /// Of an index over one column, by object.
     Dense(Vec<u32>),
@@ -86,6 +88,18 @@ impl Relation {
         if row < self.free { 0 } else { self.price }
     }
 
+    /// What every row costs that is not free; 0 where all are.
+    #[inline]
+    pub fn charged(&self) -> u32 {
+        self.price
+    }
+
+    /// How many visible rows are free: the first ones.
+    #[inline]
+    pub fn free(&self) -> u32 {
+        if self.price == 0 { self.visible } else { self.free.min(self.visible) }
+    }
+
     /// How many rows are known.
     pub fn len(&self) -> u32 {
         self.len
@@ -128,6 +142,9 @@ impl Relation {
         let row = self.visible;
         let values = &self.rows[row as usize * self.arity..(row as usize + 1) * self.arity];
         for index in &mut self.indexes {
+            if self.price > 0 && row == self.free {
+                index.free = Some(index.heads.clone());
+            }
             index.insert(row, values);
         }
         self.visible += 1;
@@ -154,8 +171,12 @@ impl Relation {
             columns: columns.to_vec(),
             heads,
             next: Vec::with_capacity(self.visible as usize),
+            free: None,
         };
         for row in 0..self.visible {
+            if self.price > 0 && row == self.free {
+                index.free = Some(index.heads.clone());
+            }
             index.insert(row, self.row(row));
         }
         self.indexes.push(index);
@@ -165,12 +186,14 @@ impl Relation {
     /// The first row of the chain for `values`, or [`NONE`]. A chain may hold rows with other values.
     #[inline]
     pub fn first(&self, index: usize, values: &[u32]) -> u32 {
-        match &self.indexes[index].heads {
-            Heads::Dense(heads) => heads[values[0] as usize],
-            Heads::Hashed(heads) => {
-                heads.get(&hash(values.iter().copied())).copied().unwrap_or(NONE)
-            }
-        }
+        self.indexes[index].heads.of(values)
+    }
+
+    /// The first row of the chain for `values` that is free, or [`NONE`]; all rows after it are free, too.
+    #[inline]
+    pub fn first_free(&self, index: usize, values: &[u32]) -> u32 {
+        let index = &self.indexes[index];
+        index.free.as_ref().unwrap_or(&index.heads).of(values)
     }
 
     /// The row after `row` in its chain, or [`NONE`].
@@ -197,6 +220,18 @@ impl Relation {
             self.distinct = (counts, self.visible);
         }
         &self.distinct.0
+    }
+}
+
+impl Heads {
+    #[inline]
+    fn of(&self, values: &[u32]) -> u32 {
+        match self {
+            Heads::Dense(heads) => heads[values[0] as usize],
+            Heads::Hashed(heads) => {
+                heads.get(&hash(values.iter().copied())).copied().unwrap_or(NONE)
+            }
+        }
     }
 }
 
@@ -232,6 +267,22 @@ mod tests {
         let first = relation.first(index, &[1]);
         assert_eq!((first, relation.next(index, first), relation.next(index, 0)), (1, 0, NONE));
         assert_eq!(relation.distinct(4), &[1, 2]);
+    }
+
+    #[test]
+    fn free_rows_have_chains_of_their_own() {
+        let mut relation = Relation::new(2);
+        relation.insert(&[1, 2]);
+        relation.insert(&[2, 2]);
+        relation.charge(3);
+        relation.insert(&[1, 3]);
+        let early = relation.index(&[0], 4);
+        relation.publish_all();
+        let late = relation.index(&[1], 4);
+        assert_eq!((relation.first(early, &[1]), relation.first_free(early, &[1])), (2, 0));
+        assert_eq!((relation.first(late, &[3]), relation.first_free(late, &[3])), (2, NONE));
+        assert_eq!(relation.first_free(late, &[2]), 1);
+        assert_eq!((relation.free(), relation.visible()), (2, 3));
     }
 
     #[test]

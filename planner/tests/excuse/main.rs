@@ -135,3 +135,27 @@ fn an_excuse_never_makes_the_goal_true_at_once() {
     assert!(list[0].changes[0].to.as_ref().is_some_and(powered));
     assert_eq!(list[0].plan.steps.len(), 1);
 }
+
+#[test]
+fn the_catalogue_has_no_change_that_no_possible_state_has() {
+    let domain = "(define (domain d) (:requirements :strips)
+      (:predicates (charge ?rover ?level) (below ?level ?other) (seen ?rover))
+      (:action use :parameters (?rover ?from ?to) :precondition (and (charge ?rover ?from) (below ?to ?from))
+        :effect (and (not (charge ?rover ?from)) (charge ?rover ?to)))
+      (:action see :parameters (?rover ?level ?to) :precondition (and (charge ?rover ?level) (below ?to ?level))
+        :effect (and (seen ?rover) (not (charge ?rover ?level)) (charge ?rover ?to))))";
+    let problem = "(define (problem p) (:domain d) (:objects r low high) (:init (charge r low) (below low high))
+      (:goal (and (seen r) (charge r low))))";
+    let (domain, problem) = read(domain, problem);
+    let policy = Policy { objects: 0, goal: true, ..Policy::default() };
+    let known = catalogue(&domain, &problem, &policy, COST, &Limits::default());
+    let known = known.expect("it is small").expect("the goal is in reach");
+    let of_charge = |fact: &Option<Fact>| {
+        fact.as_ref()
+            .is_some_and(|fact| domain.predicates[fact.predicate.index()].name.text == "charge")
+    };
+    let charge = known.variables.iter().find(|choice| of_charge(&choice.from));
+    let charge = charge.expect("the charge can be changed");
+    assert!(charge.to.iter().all(|(to, _)| of_charge(to)), "a rover has some charge: {charge:?}");
+    assert!(!charge.to.is_empty());
+}
