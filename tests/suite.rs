@@ -3,6 +3,7 @@
 mod agents;
 mod bad;
 mod causal;
+mod transfer;
 mod compiled;
 mod costs;
 mod desk;

@@ -12,6 +12,7 @@ pub mod bif;
 pub mod xmlbif;
 pub mod dot;
 pub mod svg;
+pub mod curves;
 pub mod contrast;
 mod assemble;
 mod names;

@@ -31,6 +31,7 @@
 //! - [`contrast`](mod@contrast): the nearest situation that would have been a success;
 //! - [`prevent`](mod@prevent): what to do instead of what is going to fail;
 //! - [`words`]: what was wrong, as a sentence;
+//! - [`transfer`]: what one network knows as a prior for another;
 //! - [`evaluate`]: how well outcomes are predicted;
 //! - [`file`](mod@file): networks as text and as pictures.
 
@@ -65,5 +66,6 @@ pub mod situation;
 pub mod contrast;
 pub mod prevent;
 pub mod words;
+pub mod transfer;
 pub mod evaluate;
 pub mod file;

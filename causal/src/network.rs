@@ -73,6 +73,9 @@ pub struct About {
     /// How often arcs were found in resampled trials.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub strengths: Vec<Strength>,
+    /// What came from another network.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub transfer: Option<crate::transfer::Provenance>,
     /// What a person should know.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,

@@ -14,6 +14,7 @@ mod evaluate;
 mod ask;
 mod explain;
 mod prevent;
+mod transfer;
 
 use crate::args::causal::{Causal, What};
 use crate::exit::Exit;
@@ -29,6 +30,7 @@ pub fn run(arguments: &Causal, terminal: &mut Terminal) -> Exit {
         What::Evaluate(arguments) => evaluate::run(arguments, terminal),
         What::Explain(arguments) => explain::run(arguments, terminal),
         What::Prevent(arguments) => prevent::run(arguments, terminal),
+        What::Transfer(arguments) => transfer::run(arguments, terminal),
     };
     done.unwrap_or_else(|complaint| {
         terminal.say(complaint);

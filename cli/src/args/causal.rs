@@ -1,5 +1,7 @@
 //! The command line of `caveat causal` as data.
 
+pub mod transfer;
+
 use std::path::PathBuf;
 
 use ::causal::{discover, independence};
@@ -46,6 +48,8 @@ pub enum What {
     Explain(Explain),
     /// Prevent a failure: what to do instead of what is going to fail.
     Prevent(Prevent),
+    /// Carry over what one model knows to another one like it.
+    Transfer(transfer::Transfer),
 }
 
 /// What becomes of trials that do not fit.

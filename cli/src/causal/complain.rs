@@ -23,4 +23,6 @@ complain!(
     causal::network::NetworkError,
     causal::notears::LinearError,
     causal::source::Fault,
+    causal::transfer::TransferError,
+    causal::transfer::curve::CurveError,
 );

@@ -67,6 +67,7 @@ pub fn run(arguments: &Fit, terminal: &mut Terminal) -> Result<Exit, Complaint> 
             files,
             trials: rows,
             estimate: estimated,
+            transfer: None,
             ..given.about.clone()
         };
     } else {

@@ -42,6 +42,16 @@ fn overview(network: &Network, terminal: &mut Terminal) {
         };
         terminal.line(format_args!("learned from {trials} trials{files}"));
     }
+    if let Some(transfer) = &about.transfer {
+        terminal.line(format_args!(
+            "`{}` has a prior from `{}` of {}, by {} replacement, worth {} trials in each row",
+            transfer.variable,
+            transfer.goal,
+            transfer.source,
+            transfer.strategy.name(),
+            transfer.weight
+        ));
+    }
     if let Some(goal) = &network.goal {
         terminal.line(format_args!("success is {} = {}", goal.variable, goal.state));
     }
