@@ -5,7 +5,7 @@
 //! the source's is asked:
 //!
 //! - *direct replacement* (2.13): u' takes the values of the variables that both have, as 2.10 takes those of the first cube;
-//! - *cross replacement* (2.14): u' takes the values of variables that are [related](related) and not the same, as 2.11 takes those of the
+//! - *cross replacement* (2.14): u' takes the values of variables that are [`related`] and not the same, as 2.11 takes those of the
 //!   second cube. Where there are several such ways, their mean counts. Where nothing is related but what is the same, it is direct;
 //! - *minimal replacement* (2.15): of all these the one in which success is least probable. Its whole row is taken: a minimum for each
 //!   state by itself, as the equation is printed, would not sum to one.
