@@ -1,7 +1,5 @@
 //! Trials, models and command lines with mistakes go in; each gets a clear answer. And what two ways of reading trials say is the same.
 
-use std::fmt::Write as _;
-
 use cli::exit::Exit;
 
 use crate::desk::{Desk, shipped};
@@ -56,13 +54,7 @@ fn what_cannot_be_learned_or_asked_is_said() {
         "evaluate failing.csv --goal onTop=1",
         "evaluate domains/one-cube/trials.csv --goal onTop=1 --folds 1",
     ];
-    let mut all = String::new();
-    for line in lines {
-        let command = format!("caveat causal {line}");
-        let run = desk.run(&command);
-        writeln!(all, "$ {command}\n{}{}[exit code {}]\n", run.data, run.talk, run.exit.code())
-            .expect("a string takes all");
-    }
+    let all = desk.told(lines.iter().map(|line| format!("caveat causal {line}")));
     assert!(!desk.path("o.cbn.json").exists(), "nothing is written where something is wrong");
     insta::assert_snapshot!(all);
 }
@@ -137,12 +129,7 @@ fn drawn_trials_teach_the_model_that_they_were_drawn_from() {
 fn the_examples_of_the_help_run() {
     for verb in ["", "discover", "fit", "show", "query", "evaluate", "explain", "prevent"] {
         let desk = Desk::new();
-        let help = desk.ends(Exit::Done, &format!("caveat causal {verb} --help"));
-        let whole = help.replace(" \\\n   ", "");
-        let examples: Vec<&str> =
-            whole.lines().filter(|line| line.starts_with("  caveat ")).collect();
-        assert_eq!(examples.len(), 3, "{help}");
-        for example in examples {
+        for example in desk.examples(&format!("caveat causal {verb}")) {
             // A forest that is tuned in each fold takes a minute; its own tests are elsewhere.
             desk.ends(Exit::Done, &example.replace(" --forest", ""));
         }
@@ -182,13 +169,7 @@ fn what_cannot_be_explained_or_prevented_is_said() {
         format!("prevent {cube} --trials few.csv -o corrected.csv"),
         "explain domains/one-cube/trials.csv --at xOff=0".to_owned(),
     ];
-    let mut all = String::new();
-    for line in lines {
-        let command = format!("caveat causal {line}");
-        let run = desk.run(&command);
-        writeln!(all, "$ {command}\n{}{}[exit code {}]\n", run.data, run.talk, run.exit.code())
-            .expect("a string takes all");
-    }
+    let all = desk.told(lines.iter().map(|line| format!("caveat causal {line}")));
     assert!(desk.file("corrected.csv").ends_with("\n9,0,1,red,red,outside\n"));
     insta::assert_snapshot!(all);
 }

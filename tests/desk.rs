@@ -109,6 +109,25 @@ impl Desk {
         format!("$ {command}\n{printed}[exit code {}]\n", exit.code())
     }
 
+    /// What all these command lines print, whatever way they end, each below itself.
+    pub fn told(&self, commands: impl IntoIterator<Item = String>) -> String {
+        let one = |command: String| {
+            let run = self.run(&command);
+            format!("$ {command}\n{}{}[exit code {}]\n\n", run.data, run.talk, run.exit.code())
+        };
+        commands.into_iter().map(one).collect()
+    }
+
+    /// The three examples that the help of a verb ends with.
+    #[track_caller]
+    pub fn examples(&self, verb: &str) -> Vec<String> {
+        let help = self.ends(Exit::Done, &format!("{verb} --help")).replace(" \\\n   ", "");
+        let examples = help.lines().filter_map(|line| line.strip_prefix("  caveat "));
+        let examples: Vec<String> = examples.map(|line| format!("caveat {line}")).collect();
+        assert_eq!(examples.len(), 3, "{help}");
+        examples
+    }
+
     /// The JSON document that a run printed.
     #[track_caller]
     pub fn json(&self, command: &str) -> serde_json::Value {

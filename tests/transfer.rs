@@ -1,7 +1,5 @@
 //! Models go in that know something and models that are to know it; what is carried over is said, and mistakes get a clear answer.
 
-use std::fmt::Write as _;
-
 use cli::exit::Exit;
 
 use crate::desk::{Desk, shipped};
@@ -57,13 +55,7 @@ fn what_cannot_be_carried_over_is_said() {
         format!("{cube} {cube} --sweep 1,5"),
         "far.json far.json --test few.csv --learning-curve 0,5".to_owned(),
     ];
-    let mut all = String::new();
-    for line in lines {
-        let command = format!("caveat causal transfer {line}");
-        let run = desk.run(&command);
-        writeln!(all, "$ {command}\n{}{}[exit code {}]\n", run.data, run.talk, run.exit.code())
-            .expect("a string takes all");
-    }
+    let all = desk.told(lines.iter().map(|line| format!("caveat causal transfer {line}")));
     assert!(!desk.path("o.json").exists(), "nothing is written where something is wrong");
     insta::assert_snapshot!(all);
 }
@@ -97,12 +89,9 @@ fn a_model_carried_over_to_itself_is_itself() {
 #[test]
 fn the_examples_of_carrying_over_run() {
     let desk = Desk::new();
-    let help = desk.ends(Exit::Done, "caveat causal transfer --help");
-    let whole = help.replace(" \\\n   ", "");
-    let examples: Vec<&str> = whole.lines().filter(|line| line.starts_with("  caveat ")).collect();
-    assert_eq!(examples.len(), 3, "{help}");
     let mut said = String::new();
-    for command in examples.iter().flat_map(|example| example.trim().split(" && ")) {
+    for command in desk.examples("caveat causal transfer").iter().flat_map(|one| one.split(" && "))
+    {
         said = desk.ends(Exit::Done, command);
     }
     assert!(said.contains("minimal, worth 20"), "{said}");

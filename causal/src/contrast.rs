@@ -389,23 +389,22 @@ impl<'a> Judge<'a> {
         };
         let parents = network.graph().parents(goal);
         let states: Vec<Option<State>> = parents.iter().map(seen).collect();
-        // How many trials the rows that agree with the evidence have together.
-        let mut trials = 0;
-        let mut counted = true;
-        for row in 0..network.rows(goal).expect("the rows of a network are numbered") {
-            let agrees = network
-                .states_of(goal, row)
-                .iter()
-                .zip(&states)
-                .all(|(state, seen)| seen.is_none_or(|seen| seen == *state));
-            if agrees {
-                match network.counts(goal, row) {
-                    Some(counts) => trials += counts.iter().sum::<u64>(),
-                    None => counted = false,
-                }
-            }
-        }
-        let enough = !counted || trials >= self.question.least_trials;
+        // The rows that agree with the evidence, and how many trials they have together.
+        let rows = match states.iter().copied().collect::<Option<Vec<State>>>() {
+            Some(states) => vec![network.row_of(goal, &states)],
+            None => (0..network.rows(goal).expect("the rows of a network are numbered"))
+                .filter(|&row| {
+                    let own = network.states_of(goal, row);
+                    own.iter()
+                        .zip(&states)
+                        .all(|(state, seen)| seen.is_none_or(|one| one == *state))
+                })
+                .collect(),
+        };
+        let counts: Option<Vec<&[u64]>> =
+            rows.into_iter().map(|row| network.counts(goal, row)).collect();
+        let trials = counts.map(|rows| rows.into_iter().flatten().sum::<u64>());
+        let enough = trials.is_none_or(|trials| trials >= self.question.least_trials);
         let probability = match posterior(network, goal, evidence) {
             Ok(probabilities) => Some(probabilities[usize::from(success)]),
             Err(InferError::Unknown { .. } | InferError::Impossible) => None,

@@ -61,26 +61,42 @@ impl Method {
         Self::Mmhc,
     ];
 
-    /// What it is called on the command line and in files, and what it is in a few words.
-    pub const fn name(self) -> (&'static str, &'static str) {
+    /// What it is called on the command line and in files.
+    pub const fn name(self) -> &'static str {
         match self {
-            Self::Auto => ("auto", "The best graph up to 20 variables, else greedy"),
-            Self::Exact => ("exact", "The best graph, by dynamic programming"),
-            Self::Greedy => ("greedy", "Greedy equivalence search"),
-            Self::Order => ("order", "Best order score search"),
-            Self::Hill => ("hill", "Hill climbing"),
-            Self::Tabu => ("tabu", "Tabu search"),
-            Self::Pc => ("pc", "PC in its stable form"),
-            Self::GrowShrink => ("grow-shrink", "Markov blankets by growing and shrinking"),
-            Self::Iamb => ("iamb", "Markov blankets by incremental association"),
-            Self::Mmhc => ("mmhc", "Max-min hill climbing"),
+            Self::Auto => "auto",
+            Self::Exact => "exact",
+            Self::Greedy => "greedy",
+            Self::Order => "order",
+            Self::Hill => "hill",
+            Self::Tabu => "tabu",
+            Self::Pc => "pc",
+            Self::GrowShrink => "grow-shrink",
+            Self::Iamb => "iamb",
+            Self::Mmhc => "mmhc",
+        }
+    }
+
+    /// What it is, in a few words.
+    pub const fn about(self) -> &'static str {
+        match self {
+            Self::Auto => "The best graph up to 20 variables, else greedy",
+            Self::Exact => "The best graph, by dynamic programming",
+            Self::Greedy => "Greedy equivalence search",
+            Self::Order => "Best order score search",
+            Self::Hill => "Hill climbing",
+            Self::Tabu => "Tabu search",
+            Self::Pc => "PC in its stable form",
+            Self::GrowShrink => "Markov blankets by growing and shrinking",
+            Self::Iamb => "Markov blankets by incremental association",
+            Self::Mmhc => "Max-min hill climbing",
         }
     }
 }
 
 impl std::fmt::Display for Method {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name().0)
+        f.write_str(self.name())
     }
 }
 

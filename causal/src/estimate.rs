@@ -99,32 +99,43 @@ fn fits(prior: &Network, counter: &dyn Counter, graph: &Dag) -> Result<(), Estim
 
 fn table(estimator: Estimator, id: VariableId, counts: &[u64], arity: usize) -> Conditional {
     let rows = counts.len() / arity;
+    let uniform = vec![1.0 / arity as f64; arity];
+    blended(rows, arity, Some(counts), |row| match estimator {
+        Estimator::Likelihood => None,
+        Estimator::Dirichlet(each) => Some((each * arity as f64, &uniform)),
+        Estimator::Bdeu(all) => Some((all / rows as f64, &uniform)),
+        // A row that the prior does not know either has only its own trials.
+        Estimator::Weighted { prior, weight } => Some((weight, prior.row(id, row)?)),
+    })
+}
+
+/// A table of which each row is a prior, worth so many trials, together with the trials of the row (equation 2.9). A row with neither is
+/// unknown.
+pub(crate) fn blended<'p>(
+    rows: usize,
+    arity: usize,
+    counts: Option<&[u64]>,
+    prior: impl Fn(usize) -> Option<(f64, &'p [f64])>,
+) -> Conditional {
     let mut table = Conditional {
-        probabilities: Vec::with_capacity(counts.len()),
-        counts: Some(counts.to_vec()),
+        probabilities: Vec::with_capacity(rows * arity),
+        counts: counts.map(<[u64]>::to_vec),
         unknown: Vec::new(),
     };
-    let uniform = 1.0 / arity as f64;
-    for (row, counts) in counts.chunks_exact(arity).enumerate() {
+    let none = vec![0; arity];
+    for row in 0..rows {
+        let counts = counts.map_or(&none[..], |counts| &counts[row * arity..(row + 1) * arity]);
         let total: u64 = counts.iter().sum();
-        let prior = match estimator {
-            Estimator::Weighted { prior, .. } => prior.row(id, row),
-            _ => None,
-        };
-        // A row that the prior does not know either has only its own trials.
-        let weight = match estimator {
-            Estimator::Likelihood => 0.0,
-            Estimator::Dirichlet(each) => each * arity as f64,
-            Estimator::Bdeu(all) => all / rows as f64,
-            Estimator::Weighted { weight, .. } => prior.map_or(0.0, |_| weight),
-        };
-        let known = total > 0 || weight > 0.0;
-        if !known {
+        let prior = prior(row);
+        let weight = prior.map_or(0.0, |(weight, _)| weight);
+        if total == 0 && weight <= 0.0 {
             table.unknown.push(row as u32);
+            table.probabilities.extend(std::iter::repeat_n(0.0, arity));
+            continue;
         }
         table.probabilities.extend(counts.iter().enumerate().map(|(state, &count)| {
-            let probability = prior.map_or(uniform, |prior| prior[state]);
-            if known { weighted(weight, probability, count, total) } else { 0.0 }
+            let probability = prior.map_or(0.0, |(_, prior)| prior[state]);
+            weighted(weight, probability, count, total)
         }));
     }
     table

@@ -23,12 +23,21 @@ impl Test {
     /// All of them, in the order in which they are offered.
     pub const ALL: [Self; 3] = [Self::G2, Self::X2, Self::MutualInformation];
 
-    /// What it is called on the command line, and what it is in a few words.
-    pub const fn name(self) -> (&'static str, &'static str) {
+    /// What it is called on the command line.
+    pub const fn name(self) -> &'static str {
         match self {
-            Self::G2 => ("g2", "The likelihood ratio"),
-            Self::X2 => ("x2", "Pearson's chi-square"),
-            Self::MutualInformation => ("mutual-information", "Mutual information"),
+            Self::G2 => "g2",
+            Self::X2 => "x2",
+            Self::MutualInformation => "mutual-information",
+        }
+    }
+
+    /// What it is, in a few words.
+    pub const fn about(self) -> &'static str {
+        match self {
+            Self::G2 => "The likelihood ratio",
+            Self::X2 => "Pearson's chi-square",
+            Self::MutualInformation => "Mutual information",
         }
     }
 }

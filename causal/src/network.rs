@@ -248,6 +248,12 @@ impl Network {
         &self.graph
     }
 
+    /// What the parents of a variable are called, in their order.
+    pub fn causes(&self, id: VariableId) -> Vec<&str> {
+        let parents = self.graph.parents(id).iter();
+        parents.map(|&parent| self.variable(parent).name.as_str()).collect()
+    }
+
     /// The table of a variable.
     pub fn table(&self, id: VariableId) -> &Conditional {
         &self.tables[id.index()]

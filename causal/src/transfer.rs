@@ -25,7 +25,7 @@ use thiserror::Error;
 
 use self::overlap::{Mixture, overlap};
 use self::relation::{Relation, View};
-use crate::estimate::weighted;
+use crate::estimate::blended;
 use crate::infer::{InferError, elimination::joint};
 use crate::network::{Conditional, Network, NetworkError};
 use crate::variable::{State, VariableId};
@@ -65,6 +65,15 @@ impl Strategy {
             Self::Direct => "direct",
             Self::Cross => "cross",
             Self::Minimal => "minimal",
+        }
+    }
+
+    /// Whose values it puts into the source, in a few words.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Direct => "Those of the variables that both have (equation 2.13)",
+            Self::Cross => "Those of related ones (equation 2.14)",
+            Self::Minimal => "Those with which success is less probable (equation 2.15)",
         }
     }
 }
@@ -221,27 +230,9 @@ pub fn estimated(
     if !weight.is_finite() || weight < 0.0 {
         return Err(TransferError::Weight(weight));
     }
-    let mut table = Conditional {
-        probabilities: Vec::with_capacity(prior.rows.len() * arity),
-        counts: counts.map(<[u64]>::to_vec),
-        unknown: Vec::new(),
-    };
-    let none = vec![0; arity];
-    for (row, before) in prior.rows.iter().enumerate() {
-        let counts = counts.map_or(&none[..], |counts| &counts[row * arity..(row + 1) * arity]);
-        let total: u64 = counts.iter().sum();
-        let weight = if before.is_some() { weight } else { 0.0 };
-        if total == 0 && weight <= 0.0 {
-            table.unknown.push(row as u32);
-            table.probabilities.extend(vec![0.0; arity]);
-            continue;
-        }
-        table.probabilities.extend(counts.iter().enumerate().map(|(state, &count)| {
-            let probability = before.as_ref().map_or(0.0, |before| before[state]);
-            weighted(weight, probability, count, total)
-        }));
-    }
-    Ok(table)
+    Ok(blended(prior.rows.len(), arity, counts, |row| {
+        prior.rows[row].as_deref().map(|known| (weight, known))
+    }))
 }
 
 /// The target with another table of its goal.
@@ -261,12 +252,7 @@ pub fn with_table(
 /// The error of two networks that have nothing to do with each other.
 fn unrelated(ends: &Ends) -> TransferError {
     let causes = |network: &Network, goal: VariableId| {
-        let names: Vec<&str> = network
-            .graph()
-            .parents(goal)
-            .iter()
-            .map(|&id| network.variable(id).name.as_str())
-            .collect();
+        let names = network.causes(goal);
         if names.is_empty() { "it has none".to_owned() } else { names.join(", ") }
     };
     TransferError::Unrelated {

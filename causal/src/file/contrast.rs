@@ -1,7 +1,7 @@
 //! A failure and the nearest success go in; a picture of both side by side comes out (SVG): the scene where the vocabulary describes one,
 //! and for each variable its states, that of the failure in red and that of the success in green.
 
-use super::svg::{escaped, shortened};
+use super::svg::{escaped, sheet, shortened};
 use crate::contrast::{Answer, Question, corrected};
 use crate::situation::{Known, Situation, state};
 use crate::words::{Scene, Vocabulary, said};
@@ -75,10 +75,7 @@ pub fn draw(question: &Question, answer: &Answer, vocabulary: &Vocabulary) -> St
         );
         top += STRIP;
     }
-    format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{top:.0}\" viewBox=\"0 0 {WIDTH} {top:.0}\" \
-         font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{body}</svg>\n"
-    )
+    sheet((WIDTH, top), 12, &body)
 }
 
 /// Cubes from the side: the first one on a table, each further one where it is let go over the one below.

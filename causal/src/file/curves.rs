@@ -1,6 +1,6 @@
 //! Numbers in rows go in; a picture (SVG) of them as curves, panel beside panel, comes out.
 
-use quick_xml::escape::escape;
+use super::svg::{escaped, sheet};
 
 /// What is drawn.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,12 +58,9 @@ pub fn draw(chart: &Chart) -> String {
     let legend = ROW * chart.curves.len().div_ceil(columns) as f64 + 12.0;
     let height = TITLE + HEIGHT * rows as f64 + legend;
     let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
-         viewBox=\"0 0 {width:.0} {height:.0}\" font-family=\"sans-serif\" font-size=\"11\">\n\
-         <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n\
-         <text x=\"{:.1}\" y=\"20\" text-anchor=\"middle\" font-size=\"13\" font-weight=\"bold\">{}</text>\n",
+        "<text x=\"{:.1}\" y=\"20\" text-anchor=\"middle\" font-size=\"13\" font-weight=\"bold\">{}</text>\n",
         width / 2.0,
-        escape(&chart.title)
+        escaped(&chart.title)
     );
     for (at, one) in chart.panels.iter().enumerate() {
         let (x, y) = ((at % 2) as f64 * WIDTH, TITLE + (at / 2) as f64 * HEIGHT);
@@ -79,11 +76,10 @@ pub fn draw(chart: &Chart) -> String {
             "<text x=\"{:.1}\" y=\"{:.1}\">{}</text>\n",
             x + 42.0,
             y + 4.0,
-            escape(&curve.name)
+            escaped(&curve.name)
         );
     }
-    svg.push_str("</svg>\n");
-    svg
+    sheet((width, height), 11, &svg)
 }
 
 /// Draws a panel whose upper left corner is here.
@@ -94,7 +90,7 @@ fn panel(svg: &mut String, chart: &Chart, panel: &Panel, (x, y): (f64, f64)) {
         *svg,
         "<text x=\"{left:.1}\" y=\"{:.1}\" font-weight=\"bold\">{}</text>\n",
         y + 18.0,
-        escape(&panel.title)
+        escaped(&panel.title)
     );
     let ticks = ticks(panel.values.iter().flatten().flatten().copied());
     let (low, high) = (ticks[0], ticks[ticks.len() - 1]);
@@ -118,7 +114,7 @@ fn panel(svg: &mut String, chart: &Chart, panel: &Panel, (x, y): (f64, f64)) {
             "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>\n",
             across(place),
             bottom + 15.0,
-            escape(label)
+            escaped(label)
         );
     }
     put!(
@@ -126,7 +122,7 @@ fn panel(svg: &mut String, chart: &Chart, panel: &Panel, (x, y): (f64, f64)) {
         "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\" fill=\"#555555\">{}</text>\n",
         f64::midpoint(left, right),
         bottom + 30.0,
-        escape(&chart.axis)
+        escaped(&chart.axis)
     );
     for (curve, values) in chart.curves.iter().zip(&panel.values) {
         let points: Vec<(f64, f64)> = values

@@ -74,13 +74,9 @@ pub fn draw(network: &Network, details: Details) -> String {
         let (drawn, widest, end) = tables::draw(network, total);
         (below, total, page) = (drawn, end, width.max(widest));
     }
-    let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{page:.0}\" height=\"{total:.0}\" \
-         viewBox=\"0 0 {page:.0} {total:.0}\" font-family=\"sans-serif\" font-size=\"11\">\n\
-         <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n\
-         <defs><marker id=\"tip\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"9\" markerHeight=\"9\" \
+    let mut svg = "<defs><marker id=\"tip\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"9\" markerHeight=\"9\" \
          markerUnits=\"userSpaceOnUse\" orient=\"auto\"><path d=\"M0 0L10 5L0 10z\" fill=\"#456\"/></marker></defs>\n"
-    );
+        .to_owned();
     for (from, to) in network.graph().arcs() {
         svg.push_str(&arc(network, &places, from, to));
     }
@@ -95,8 +91,16 @@ pub fn draw(network: &Network, details: Details) -> String {
         }
     }
     svg.push_str(&below);
-    svg.push_str("</svg>\n");
-    svg
+    sheet((page, total), 11, &svg)
+}
+
+/// A white sheet of this width and height in pixels, with letters of this size.
+pub(super) fn sheet((width, height): (f64, f64), letters: u32, body: &str) -> String {
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
+         viewBox=\"0 0 {width:.0} {height:.0}\" font-family=\"sans-serif\" font-size=\"{letters}\">\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{body}</svg>\n"
+    )
 }
 
 /// The layer of each variable, with the arcs that pass through, in the order from left to right.

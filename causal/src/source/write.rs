@@ -110,7 +110,8 @@ fn text(head: &Head, cell: f64) -> String {
     }
 }
 
-fn quoted(text: &str) -> String {
+/// A cell of CSV.
+pub fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\n']) {
         return format!("\"{}\"", text.replace('"', "\"\""));
     }

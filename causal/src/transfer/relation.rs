@@ -97,8 +97,7 @@ fn cause(ends: &Ends, name: &str, source: bool) -> Result<VariableId, TransferEr
     if parents.contains(&id) {
         return Ok(id);
     }
-    let names: Vec<&str> =
-        parents.iter().map(|&parent| network.variable(parent).name.as_str()).collect();
+    let names = network.causes(goal);
     Err(TransferError::NoCause {
         side,
         name: name.to_owned(),

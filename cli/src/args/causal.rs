@@ -165,7 +165,7 @@ impl ValueEnum for Method {
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
         let (name, about) = match self {
-            Self::Of(method) => method.name(),
+            Self::Of(method) => (method.name(), method.about()),
             Self::Notears => ("notears", "A linear graph of the quantities themselves (NOTEARS)"),
         };
         Some(PossibleValue::new(name).help(about))
@@ -187,8 +187,7 @@ impl ValueEnum for Test {
     }
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
-        let (name, about) = self.0.name();
-        Some(PossibleValue::new(name).help(about))
+        Some(PossibleValue::new(self.0.name()).help(self.0.about()))
     }
 }
 

@@ -40,16 +40,7 @@ impl Asked {
             return Err(Complaint::new(message));
         }
         let network = model::read(&arguments.model)?;
-        let goal = match (&arguments.goal, &network.goal) {
-            (Some(text), _) => model::assignment(&network, text)?,
-            (None, Some(goal)) => {
-                model::assignment(&network, &format!("{}={}", goal.variable, goal.state))?
-            }
-            (None, None) => {
-                let message = "nothing says what success is";
-                return Err(Complaint::with_help(message, "for example `--goal onTop=1`"));
-            }
-        };
+        let goal = model::goal(&network, arguments.goal.as_deref(), "", "--goal")?;
         let free = free(&network, goal.0, arguments)?;
         let vocabulary = vocabulary(arguments)?;
         let audience = match arguments.audience {

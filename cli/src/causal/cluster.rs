@@ -34,7 +34,9 @@ pub fn counted<T>(
         ));
     };
     let cluster = Cluster::new(&engine, &files::name(path), variables)?;
-    if cluster.dropped() > 0 && trials::policy(arguments) != trials::dropping() {
+    if cluster.dropped() > 0
+        && trials::policy(arguments.missing, arguments.outside) != trials::dropping()
+    {
         let message = format!("{} trials have no state for some variable", cluster.dropped());
         return Err(Complaint::with_help(
             message,

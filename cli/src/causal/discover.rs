@@ -34,7 +34,7 @@ pub fn run(arguments: &Discover, terminal: &mut Terminal) -> Result<Exit, Compla
     let declared = trials::declared(&arguments.trials, Some(&arguments.known), &*source)?;
     let variables = trials::states(&arguments.trials, &declared, &*source, terminal)?;
     let knowledge = trials::knowledge(&arguments.known)?.with_roles(&variables);
-    let policy = trials::policy(&arguments.trials);
+    let policy = trials::policy(arguments.trials.missing, arguments.trials.outside);
     let learn = |counter: &dyn Counter| -> Result<(Discovery, Network), Complaint> {
         let found = discover(counter, &knowledge, &config)?;
         let network = estimate(counter, &found.graph, estimator)?;

@@ -29,7 +29,11 @@ pub fn run(arguments: &Evaluate, terminal: &mut Terminal) -> Result<Exit, Compla
     let source = trials::open(&arguments.trials)?;
     let declared = trials::declared(&arguments.trials, Some(&arguments.known), &*source)?;
     let variables = trials::states(&arguments.trials, &declared, &*source, terminal)?;
-    let (all, dropped) = stream::table(&*source, &variables, trials::policy(&arguments.trials))?;
+    let (all, dropped) = stream::table(
+        &*source,
+        &variables,
+        trials::policy(arguments.trials.missing, arguments.trials.outside),
+    )?;
     trials::tell_dropped(dropped, terminal);
     let (table, groups) = part(all, arguments.group.as_deref())?;
     let knowledge = trials::knowledge(&arguments.known)?.with_roles(table.variables());

@@ -30,7 +30,7 @@ pub fn run(arguments: &Fit, terminal: &mut Terminal) -> Result<Exit, Complaint> 
         (Some(prior), Some(weight)) => Estimator::Weighted { weight, prior },
         _ => model::estimator(&arguments.estimate)?,
     };
-    let policy = trials::policy(&arguments.trials);
+    let policy = trials::policy(arguments.trials.missing, arguments.trials.outside);
     let fit = |counter: &dyn Counter| -> Result<Network, Complaint> {
         Ok(estimate(counter, &graph, estimator)?)
     };

@@ -44,7 +44,11 @@ pub fn run(arguments: &Discover, terminal: &mut Terminal) -> Result<Exit, Compla
     let columns: Vec<Vec<f64>> = (0..declared.len()).map(|at| sample.numbers(at)).collect();
     let found = learn(&columns, &Config::default())?;
     let variables = trials::states(&arguments.trials, &declared, &*source, terminal)?;
-    let (table, dropped) = stream::table(&*source, &variables, trials::policy(&arguments.trials))?;
+    let (table, dropped) = stream::table(
+        &*source,
+        &variables,
+        trials::policy(arguments.trials.missing, arguments.trials.outside),
+    )?;
     trials::tell_dropped(dropped, terminal);
     let mut network = estimate(&table, &found.graph, estimator)?;
     network.about.files = arguments.trials.files.iter().map(|path| files::name(path)).collect();

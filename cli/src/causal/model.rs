@@ -103,6 +103,23 @@ pub fn assignment(network: &Network, text: &str) -> Result<(VariableId, State), 
     Err(Complaint::with_help(message, format!("its states are {}", variable.labels().join(", "))))
 }
 
+/// The variable and its state that are success, as the command line says or else the model itself; `of` begins the complaint.
+pub fn goal(
+    network: &Network,
+    said: Option<&str>,
+    of: &str,
+    option: &str,
+) -> Result<(VariableId, State), Complaint> {
+    match (said, &network.goal) {
+        (Some(text), _) => assignment(network, text),
+        (None, Some(goal)) => assignment(network, &format!("{}={}", goal.variable, goal.state)),
+        (None, None) => Err(Complaint::with_help(
+            format!("{of}nothing says what success is"),
+            format!("for example `{option} onTop=1`"),
+        )),
+    }
+}
+
 /// The graph of arcs by hand.
 pub fn graph(variables: &[Variable], arcs: &[String]) -> Result<Dag, Complaint> {
     let find = |name: &str| {

@@ -6,6 +6,7 @@ use std::path::Path;
 use ::causal::contrast::ContrastError;
 use ::causal::prevent::{Prevention, prevent};
 use ::causal::situation::{Known, Situation, column};
+use ::causal::source::write::quoted;
 use ::causal::words::Time;
 use rayon::prelude::*;
 use serde_json::json;
@@ -120,7 +121,7 @@ fn all(
     }
     files::write_with(output, |out| {
         let mut out = std::io::BufWriter::new(out);
-        let names: Vec<String> = columns.iter().map(|name| trials::quoted(name)).collect();
+        let names: Vec<String> = columns.iter().map(|name| quoted(name)).collect();
         writeln!(out, "{},prevention", names.join(","))?;
         for (before, found) in situations.iter().zip(&found) {
             let (after, what) = match found {
@@ -150,7 +151,7 @@ fn all(
 fn cell(situation: &Situation, column: &str) -> String {
     if let Some(known) = situation.get(column) {
         return match value(known) {
-            serde_json::Value::String(word) => trials::quoted(&word),
+            serde_json::Value::String(word) => quoted(&word),
             // A whole number is written as one, as it was read.
             _ => match known {
                 Known::Number(number) => number.to_string(),

@@ -4,10 +4,10 @@ use ::causal::chance::chance;
 use ::causal::infer::elimination::{joint, most_probable, posterior};
 use ::causal::infer::{intervene, sample};
 use ::causal::network::Network;
+use ::causal::source::write::quoted;
 use ::causal::variable::{State, States, VariableId};
 
 use super::model;
-use super::trials::quoted;
 use crate::args::causal::{Format, Query};
 use crate::exit::Exit;
 use crate::files::Complaint;

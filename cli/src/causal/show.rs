@@ -68,12 +68,7 @@ fn overview(network: &Network, terminal: &mut Terminal) {
             terminal.line(format_args!("  is {from}"));
         }
         terminal.line(format_args!("  states  {}", variable.labels().join("  ")));
-        let causes: Vec<&str> = network
-            .graph()
-            .parents(id)
-            .iter()
-            .map(|&one| network.variable(one).name.as_str())
-            .collect();
+        let causes = network.causes(id);
         if !causes.is_empty() {
             terminal.line(format_args!("  causes  {}", causes.join(", ")));
         }
@@ -88,12 +83,7 @@ fn table(network: &Network, id: VariableId, terminal: &mut Terminal) {
     let variable = network.variable(id);
     let goal = network.goal.as_ref().filter(|goal| goal.variable == variable.name);
     let wanted = goal.and_then(|goal| variable.state_of_word(&goal.state));
-    let parents: Vec<&str> = network
-        .graph()
-        .parents(id)
-        .iter()
-        .map(|&one| network.variable(one).name.as_str())
-        .collect();
+    let parents = network.causes(id);
     let labels = variable.labels();
     let rows = network.rows(id).unwrap_or(0);
     let states_of = |row: usize| -> Vec<String> {

@@ -15,7 +15,7 @@ use ::causal::transfer::relation::{Pair, Relation};
 use ::causal::transfer::{
     Ends, Provenance, Strategy, TransferError, estimated, prior, related, with_table,
 };
-use ::causal::variable::{State, Variable, VariableId};
+use ::causal::variable::{Variable, VariableId};
 
 use super::{discover, model, trials};
 use crate::args::causal::Trials;
@@ -27,16 +27,14 @@ use crate::terminal::Terminal;
 /// Runs the verb.
 pub fn run(arguments: &Transfer, terminal: &mut Terminal) -> Result<Exit, Complaint> {
     let source = model::read(&arguments.source)?;
-    let source_goal = goal(
-        &source,
-        arguments.source_goal.as_deref(),
-        &files::name(&arguments.source),
-        "--source-goal",
-    )?;
+    let of = files::name(&arguments.source);
+    let said = arguments.source_goal.as_deref();
+    let source_goal = model::goal(&source, said, &format!("{of}: "), "--source-goal")?;
     let (target, by_hand) = target(arguments, terminal)?;
     let name =
         arguments.target.as_ref().map_or_else(|| "the trials".to_owned(), |path| files::name(path));
-    let target_goal = goal(&target, arguments.goal.as_deref(), &name, "--goal")?;
+    let said = arguments.goal.as_deref();
+    let target_goal = model::goal(&target, said, &format!("{name}: "), "--goal")?;
     let ends = Ends { source: &source, source_goal, target: &target, target_goal };
     let relation = match &arguments.relate {
         None => related::relation(&ends),
@@ -122,25 +120,6 @@ pub fn run(arguments: &Transfer, terminal: &mut Terminal) -> Result<Exit, Compla
     Ok(Exit::Done)
 }
 
-/// The goal of a model, by the command line or by itself.
-fn goal(
-    network: &Network,
-    said: Option<&str>,
-    name: &str,
-    option: &str,
-) -> Result<(VariableId, State), Complaint> {
-    match (said, &network.goal) {
-        (Some(text), _) => model::assignment(network, text),
-        (None, Some(goal)) => {
-            model::assignment(network, &format!("{}={}", goal.variable, goal.state))
-        }
-        (None, None) => Err(Complaint::with_help(
-            format!("{name}: nothing says what success is"),
-            format!("for example `{option} onTop=1`"),
-        )),
-    }
-}
-
 /// The target: a model, or trials with a graph by hand. Whether it is the latter.
 fn target(arguments: &Transfer, terminal: &mut Terminal) -> Result<(Network, bool), Complaint> {
     if let Some(path) = &arguments.target {
@@ -165,7 +144,8 @@ fn target(arguments: &Transfer, terminal: &mut Terminal) -> Result<(Network, boo
     let declared = trials::declared(&given, None, &*source)?;
     let variables = trials::states(&given, &declared, &*source, terminal)?;
     let graph = model::graph(&variables, &arguments.arcs)?;
-    let (table, dropped) = stream::table(&*source, &variables, trials::policy(&given))?;
+    let (table, dropped) =
+        stream::table(&*source, &variables, trials::policy(given.missing, given.outside))?;
     trials::tell_dropped(dropped, terminal);
     let mut network = estimate(&table, &graph, Estimator::Bdeu(1.0))?;
     if let Some(goal) = trials::goal(&given)? {
@@ -188,17 +168,8 @@ fn read(
 ) -> Result<Table, Complaint> {
     let variables: Vec<Variable> =
         columns(ends).into_iter().map(|id| ends.target.variable(id).clone()).collect();
-    let given = Trials {
-        files: paths.to_vec(),
-        recipe: None,
-        cuts: Vec::new(),
-        leave_out: Vec::new(),
-        missing: arguments.missing,
-        outside: arguments.outside,
-        goal: None,
-    };
-    let (table, dropped) =
-        stream::table(&*trials::open(&given)?, &variables, trials::policy(&given))?;
+    let policy = trials::policy(arguments.missing, arguments.outside);
+    let (table, dropped) = stream::table(&*trials::open_files(paths)?, &variables, policy)?;
     trials::tell_dropped(dropped, terminal);
     Ok(table)
 }

@@ -183,23 +183,15 @@ fn tell(found: &Discretized, terminal: &mut Terminal) {
 }
 
 /// What becomes of trials that do not fit.
-pub fn policy(arguments: &Trials) -> Policy {
+pub fn policy(missing: Choice, outside: Choice) -> Policy {
     let unfit = |choice| if choice == Choice::Drop { Unfit::Drop } else { Unfit::Refuse };
-    Policy { missing: unfit(arguments.missing), outside: unfit(arguments.outside) }
+    Policy { missing: unfit(missing), outside: unfit(outside) }
 }
 
 /// The policy that leaves out whatever does not fit.
 #[cfg(feature = "datafusion")]
 pub fn dropping() -> Policy {
     Policy { missing: Unfit::Drop, outside: Unfit::Drop }
-}
-
-/// A cell of CSV.
-pub fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n']) {
-        return format!("\"{}\"", text.replace('"', "\"\""));
-    }
-    text.to_owned()
 }
 
 /// What is known before, from the command line and its file.

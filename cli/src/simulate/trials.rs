@@ -63,7 +63,7 @@ fn run(
     let is_parquet =
         arguments.output.extension().is_some_and(|end| end.eq_ignore_ascii_case("parquet"));
     files::write_with(&arguments.output, |out| {
-        // Parquet is written from another thread's point of view; a file of its own can be sent there.
+        // A writer of Parquet asks for a file that could be sent to another thread, which `out` cannot.
         let mut whole = tempfile::tempfile()?;
         write(world, &columns, arguments, is_parquet, whole.try_clone()?, &bar, &mut succeeded)?;
         std::io::Seek::rewind(&mut whole)?;

@@ -102,7 +102,7 @@ fn table(network: &Network, id: VariableId, top: f64, svg: &mut String) -> (f64,
 /// The variable, and what its table is given.
 fn title(network: &Network, id: VariableId) -> String {
     let name = |id: VariableId| network.variable(id).name.as_str();
-    let parents: Vec<&str> = network.graph().parents(id).iter().map(|&one| name(one)).collect();
+    let parents = network.causes(id);
     let goal = network.goal.as_ref().filter(|goal| goal.variable == name(id));
     let success = goal.map_or_else(String::new, |goal| {
         let variable = network.variable(id);

@@ -23,14 +23,7 @@ impl ValueEnum for Strategy {
     }
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
-        let help = match self.0 {
-            transfer::Strategy::Direct => "Those of the variables that both have (equation 2.13)",
-            transfer::Strategy::Cross => "Those of related ones (equation 2.14)",
-            transfer::Strategy::Minimal => {
-                "Those with which success is less probable (equation 2.15)"
-            }
-        };
-        Some(PossibleValue::new(self.0.name()).help(help))
+        Some(PossibleValue::new(self.0.name()).help(self.0.about()))
     }
 }
 

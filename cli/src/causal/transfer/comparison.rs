@@ -1,6 +1,5 @@
 //! A relation and trials go in; how much a prior is worth with ever more trials comes out, as a table and as a picture.
 
-use ::causal::count::Counter;
 use ::causal::file::curves::{Chart, Curve, Panel, draw};
 use ::causal::table::Table;
 use ::causal::transfer::curve::{LEAST, Measures, Point, Study, curve};
@@ -23,7 +22,7 @@ pub fn run(
 ) -> Result<(), Complaint> {
     let test = read(arguments, &arguments.test, ends, terminal)?;
     let sizes = if arguments.learning_curve.is_empty() {
-        vec![own.map_or(0, |table| table.rows() as usize)]
+        vec![own.map_or(0, Table::len)]
     } else {
         arguments.learning_curve.clone()
     };
