@@ -2,7 +2,7 @@
 
 use cli::exit::Exit;
 
-use crate::desk::Desk;
+use crate::desk::{Desk, shipped};
 
 #[test]
 fn a_sheet_says_what_the_trials_are() {
@@ -52,4 +52,13 @@ fn worlds_that_cannot_be_are_refused() {
     assert_eq!(all.matches("[exit code 2]").count(), lines.len(), "{all}");
     assert!(!desk.path("t.csv").exists());
     insta::assert_snapshot!(all);
+}
+
+/// Nothing that ships is a file of which nobody knows any more how it was made.
+#[test]
+fn the_trials_that_ship_are_run_again() {
+    let desk = Desk::new();
+    let world = "domains/one-cube/world.json";
+    desk.ends(Exit::Done, &format!("caveat simulate stack --world {world} --samples 300 -o t.csv"));
+    assert!(shipped("one-cube/trials.csv").starts_with(&desk.file("t.csv")));
 }
